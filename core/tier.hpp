@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/observables/result.hpp"
+#include "core/scene/scene.hpp"
+
+namespace tunica {
+
+/// Where a run stands, told to the caller now and then.
+struct Progress {
+  int beat = 0;         ///< 1 for the first
+  double time = 0;      ///< s of simulated time
+  double end_time = 0;  ///< s
+  long step = 0;
+  long newton_iterations = 0;
+};
+
+/// How a caller watches a run and ends it early.
+struct RunControl {
+  std::function<void(const Progress&)> report = [](const Progress&) {};
+  std::function<bool()> interrupted = [] { return false; };
+};
+
+/// One of the models that can answer a scene. A tier knows core only, never another tier.
+class Tier {
+ public:
+  virtual ~Tier() = default;
+  virtual std::string_view name() const = 0;
+  /// Empty when the tier can compute the scene, otherwise the reason, naming key and remedy.
+  virtual std::string refusal(const Scene& scene) const = 0;
+  /// True when the tier's model is meant for the scene, so that `--tier auto` may choose it.
+  virtual bool suits(const Scene& scene) const = 0;
+  /// Computes the scene. Throws InvalidInput for a scene that refusal() would refuse; a solver that
+  /// gives up returns what it has with record.failure set.
+  virtual Result run(const Scene& scene, const RunControl& control) const = 0;
+};
+
+/// The tiers of this build, the cheapest first.
+using TierList = std::vector<std::unique_ptr<Tier>>;
+
+}  // namespace tunica
