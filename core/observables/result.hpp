@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -33,10 +34,12 @@ struct RunRecord {
 /// What a tier returns. A solver that gives up returns what it has with record.failure set.
 struct Result {
   observables::Table observables;          ///< observables.csv: the columns of observables::standard_table
-  observables::Table profiles;             ///< profiles.csv: through-wall profiles at chosen times
-  observables::Table events;               ///< events.csv: recruitment and release, found as roots
-  observables::Table sensitivities;        ///< sensitivities.csv; no columns when none was asked for
-  observables::Table event_sensitivities;  ///< event_sensitivities.csv; likewise
+  observables::Table profiles;             ///< profiles.csv: the columns of observables::profile_table
+  observables::Table events;               ///< events.csv: the columns of observables::event_table
+  observables::Table sensitivities;        ///< sensitivities.csv: time[s], then one column for every
+                                           ///< observables::sensitivity_column; none when not asked for
+  observables::Table event_sensitivities;  ///< event_sensitivities.csv: point, event and time[s] as in
+                                           ///< events, then d(time)/d(key) columns; likewise
   RunRecord record;
 };
 
@@ -75,16 +78,63 @@ Table standard_table();
 /// Appends one row to a table made by standard_table.
 void append(Table& table, const Sample& sample);
 
+/// Values at one place in the wall at mid-length and one of the scene's output.profile_times.
+struct ProfilePoint {
+  double time = none;                     ///< s, of the run (not of the beat)
+  double radius = none;                   ///< cm, in the unloaded wall
+  double radial_displacement = none;      ///< cm
+  double circumferential_stretch = none;  ///< deformed over unloaded circumference
+  double fiber_stretch = none;            ///< sqrt(I4bar) of family 1
+  double fiber_angle = none;              ///< deg, as in WallPoint
+  double recruitment = none;              ///< H of family 1
+  double von_mises = none;                ///< dyn/cm2, of the Cauchy stress
+};
+/// An empty table with the columns of profiles.csv.
+Table profile_table();
+/// Appends one row to a table made by profile_table; rows of one time follow each other, inside to outside.
+void append(Table& table, const ProfilePoint& point);
+
+/// Fibres of a wall point being recruited or released.
+struct Event {
+  double time = none;  ///< s, of the run
+  int point = 1;       ///< 1 to wall_points, for P1..P4
+  bool recruited = true;
+  double pressure = none;  ///< dyn/cm2, as in Sample, at that time
+};
+/// An empty table with the columns of events.csv: time[s], point ("P1"), event ("recruited" or
+/// "released"), pressure[dyn/cm2].
+Table event_table();
+/// Appends one row to a table made by event_table.
+void append(Table& table, const Event& event);
+
+/// Name and unit of the column that holds the derivative of a quantity by a scene parameter:
+/// "d(pressure)/d(outlet.resistance)" and "(dyn/cm2)/(dyn s/cm5)".
+struct ColumnHead {
+  std::string name;
+  std::string unit;
+};
+ColumnHead sensitivity_column(std::string_view quantity, std::string_view quantity_unit, std::string_view key,
+                              std::string_view key_unit);
+
 }  // namespace observables
 
+/// Makes the folder, with its parents, and sees that files can be made in it. For use before a long
+/// run. Throws OutputFailure naming the path and the system's reason.
+void make_result_folder(const std::filesystem::path& folder);
+
 /// Writes the result into a folder (made when missing): each file is written aside and renamed, so a
-/// reader never sees half a file. Throws OutputFailure naming the path and the system's reason.
+/// reader never sees half a file. record.json is taken away first and written last: where it is, the
+/// files beside it belong to it. Tables without columns have no file, and a file of an earlier run is
+/// removed. Throws OutputFailure naming the path and the system's reason.
 void write_result(const std::filesystem::path& folder, const Scene& scene, const Result& result);
 
 /// Reads a folder written by write_result. Throws InvalidInput when something is missing or broken.
+/// Profiles, events and sensitivities that were not written come back as tables without columns.
 StoredResult read_result(const std::filesystem::path& folder);
 
-/// Writes text to a file by way of a temporary file beside it and a rename. Throws OutputFailure.
+/// Writes text to a file by way of a temporary file beside it (".NAME.PID.part", removed when writing
+/// fails) and a rename, so that the file is the old or the new one, whole, at every moment, also after
+/// a crash of the machine. Throws OutputFailure.
 void write_whole(const std::filesystem::path& file, std::string_view text);
 
 }  // namespace tunica

@@ -43,11 +43,15 @@ class Table {
   std::vector<Column> columns_;
 };
 
-/// CSV text: header "name[unit]" (a text column: "name"), numbers with 17 significant digits or the
-/// shortest text that reads back to the same double, empty cells for `none`.
+/// CSV text (RFC 4180 quoting, "\n" line ends): header "name[unit]" (a text column: "name"), numbers as
+/// the shortest text that reads back to the same double, empty cells for `none`. Empty text for a
+/// table without columns. Throws std::logic_error when columns differ in length.
 std::string to_csv(const Table& table);
 
 /// Reads what to_csv wrote. Throws InvalidInput naming file, line and column.
 Table read_csv(const std::string& path);
+
+/// The same from text; `name` stands for the file in messages.
+Table parse_csv(std::string_view text, std::string_view name);
 
 }  // namespace tunica::observables

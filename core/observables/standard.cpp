@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <initializer_list>
+#include <stdexcept>
+
+#include "core/observables/result.hpp"
+
+namespace tunica::observables {
+
+namespace {
+
+/// Column names and the order of values in append() stand side by side in each pair of functions
+/// below, and a table of another shape is refused.
+void append_numbers(Table& table, std::size_t first, std::initializer_list<double> values) {
+  for (const double value : values) table[first++].values.push_back(value);
+}
+
+void expect_columns(const Table& table, std::size_t count) {
+  if (table.columns().size() != count) throw std::logic_error("append: the table has other columns");
+}
+
+constexpr std::size_t columns_before_points = 6;
+constexpr std::size_t columns_per_point = 5;
+
+}  // namespace
+
+Table standard_table() {
+  Table table;
+  table.add("time", "s");
+  table.add("inflow", "cm3/s");
+  table.add("outflow", "cm3/s");
+  table.add("pressure", "dyn/cm2");
+  table.add("outlet_pressure", "dyn/cm2");
+  table.add("transmural_pressure", "dyn/cm2");
+  for (int point = 1; point <= wall_points; ++point) {
+    table.add(fmt::format("radial_displacement.P{}", point), "cm");
+    table.add(fmt::format("fiber_angle.P{}", point), "deg");
+    table.add(fmt::format("fiber_stretch.P{}", point), "1");
+    table.add(fmt::format("recruitment.P{}", point), "1");
+    table.add(fmt::format("von_mises.P{}", point), "dyn/cm2");
+  }
+  return table;
+}
+
+void append(Table& table, const Sample& sample) {
+  expect_columns(table, columns_before_points + columns_per_point * wall_points);
+  append_numbers(table, 0,
+                 {sample.time, sample.inflow, sample.outflow, sample.pressure, sample.outlet_pressure,
+                  sample.transmural_pressure});
+  std::size_t column = columns_before_points;
+  for (const WallPoint& point : sample.wall) {
+    append_numbers(table, column,
+                   {point.radial_displacement, point.fiber_angle, point.fiber_stretch, point.recruitment,
+                    point.von_mises});
+    column += columns_per_point;
+  }
+}
+
+Table profile_table() {
+  Table table;
+  table.add("time", "s");
+  table.add("radius", "cm");
+  table.add("radial_displacement", "cm");
+  table.add("circumferential_stretch", "1");
+  table.add("fiber_stretch", "1");
+  table.add("fiber_angle", "deg");
+  table.add("recruitment", "1");
+  table.add("von_mises", "dyn/cm2");
+  return table;
+}
+
+void append(Table& table, const ProfilePoint& point) {
+  expect_columns(table, 8);
+  append_numbers(table, 0,
+                 {point.time, point.radius, point.radial_displacement, point.circumferential_stretch,
+                  point.fiber_stretch, point.fiber_angle, point.recruitment, point.von_mises});
+}
+
+Table event_table() {
+  Table table;
+  table.add("time", "s");
+  table.add("point", "");
+  table.add("event", "");
+  table.add("pressure", "dyn/cm2");
+  return table;
+}
+
+void append(Table& table, const Event& event) {
+  expect_columns(table, 4);
+  table[0].values.push_back(event.time);
+  table[1].labels.push_back(fmt::format("P{}", event.point));
+  table[2].labels.emplace_back(event.recruited ? "recruited" : "released");
+  table[3].values.push_back(event.pressure);
+}
+
+ColumnHead sensitivity_column(std::string_view quantity, std::string_view quantity_unit, std::string_view key,
+                              std::string_view key_unit) {
+  return {fmt::format("d({})/d({})", quantity, key), fmt::format("({})/({})", quantity_unit, key_unit)};
+}
+
+}  // namespace tunica::observables

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <system_error>
+
+#include "core/error.hpp"
+#include "core/observables/build_info.hpp"
+#include "core/observables/result.hpp"
+
+namespace tunica {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+struct TableFile {
+  const char* name;
+  observables::Table Result::*table;
+};
+constexpr TableFile table_files[] = {{"observables.csv", &Result::observables},
+                                     {"profiles.csv", &Result::profiles},
+                                     {"events.csv", &Result::events},
+                                     {"sensitivities.csv", &Result::sensitivities},
+                                     {"event_sensitivities.csv", &Result::event_sensitivities}};
+constexpr const char* record_file = "record.json";
+
+[[noreturn]] void fail(const fs::path& path, const char* what, int error) {
+  throw OutputFailure(fmt::format("{}: {}: {}", path.string(), what, std::strerror(error)));
+}
+
+/// A file descriptor that is closed, and a file of that name that is removed, unless `keep` is called.
+class TemporaryFile {
+ public:
+  explicit TemporaryFile(fs::path path)
+      : path_(std::move(path)),
+        descriptor_(::open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {}
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+  ~TemporaryFile() {
+    if (descriptor_ < 0) return;
+    ::close(descriptor_);
+    if (!kept_) ::unlink(path_.c_str());
+  }
+
+  int descriptor() const { return descriptor_; }
+  const fs::path& path() const { return path_; }
+  void keep() { kept_ = true; }
+
+ private:
+  fs::path path_;
+  int descriptor_;
+  bool kept_ = false;
+};
+
+fs::path temporary_name(const fs::path& file) {
+  return file.parent_path() / fmt::format(".{}.{}.part", file.filename().string(), ::getpid());
+}
+
+bool is_leftover(const fs::path& file) {
+  const std::string name = file.filename().string();
+  return name.size() > 1 && name.front() == '.' && file.extension() == ".part";
+}
+
+void remove_file(const fs::path& file) {
+  std::error_code error;
+  fs::remove(file, error);
+  if (error) fail(file, "cannot be removed", error.value());
+}
+
+Json to_json(const scene::Value& value) {
+  return std::visit([](const auto& held) { return Json(held); }, value);
+}
+
+Json scene_to_json(const Scene& scene, Json& set_keys) {
+  Json values = Json::object();
+  set_keys = Json::array();
+  for (const auto& [key, value] : scene.values()) {
+    values[key] = to_json(value);
+    if (scene.was_set(key)) set_keys.push_back(key);
+  }
+  return values;
+}
+
+long peak_memory_bytes() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return usage.ru_maxrss * 1024L;
+}
+
+std::string record_text(const Scene& scene, const RunRecord& run) {
+  Json record;
+  record["program"] = "tunica";
+  record["version"] = program_version();
+  record["commit"] = program_commit();
+  record["name"] = scene.name();
+  record["tier"] = run.tier;
+  record["resolution"] = run.resolution;
+  record["unknowns"] = run.unknowns;
+  record["steps"] = run.steps;
+  record["newton_iterations"] = run.newton_iterations;
+  record["linear_iterations"] = run.linear_iterations;
+  record["rejected_steps"] = run.rejected_steps;
+  record["seconds"] = {{"setup", run.setup_seconds}, {"solve", run.solve_seconds}};
+  record["peak_memory_bytes"] = peak_memory_bytes();
+  record["converged"] = run.converged;
+  record["interrupted"] = run.interrupted;
+  record["failure"] = run.failure;
+  record["remarks"] = run.remarks;
+  Json set_keys;
+  record["scene"] = scene_to_json(scene, set_keys);
+  record["scene_set"] = std::move(set_keys);
+  record["scene_toml"] = describe(scene);
+  // File names, and so scene names, need not be UTF-8; a replaced byte is better than no record.
+  return record.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace
+
+void write_whole(const fs::path& file, std::string_view text) {
+  TemporaryFile temporary(temporary_name(file));
+  if (temporary.descriptor() < 0) fail(file, "cannot be written", errno);
+  while (!text.empty()) {
+    const ssize_t written = ::write(temporary.descriptor(), text.data(), text.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) fail(file, "cannot be written", errno);
+    text.remove_prefix(static_cast<std::size_t>(written));
+  }
+  if (::fsync(temporary.descriptor()) != 0) fail(file, "cannot be written", errno);
+  if (::rename(temporary.path().c_str(), file.c_str()) != 0) fail(file, "cannot be written", errno);
+  temporary.keep();
+}
+
+void make_result_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) fail(folder, "the folder for results cannot be made", error.value());
+  if (!fs::is_directory(folder)) fail(folder, "results cannot be stored here", ENOTDIR);
+  // Permission bits do not tell (root, read-only mounts, quotas): a file does.
+  const TemporaryFile probe(temporary_name(folder / "probe"));
+  if (probe.descriptor() < 0) fail(folder, "files cannot be made in this folder", errno);
+}
+
+void write_result(const fs::path& folder, const Scene& scene, const Result& result) {
+  make_result_folder(folder);
+  remove_file(folder / record_file);
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error))
+    if (is_leftover(entry.path())) remove_file(entry.path());
+  for (const TableFile& file : table_files) {
+    const observables::Table& table = result.*file.table;
+    if (table.columns().empty())
+      remove_file(folder / file.name);
+    else
+      write_whole(folder / file.name, observables::to_csv(table));
+  }
+  write_whole(folder / record_file, record_text(scene, result.record));
+}
+
+StoredResult read_result(const fs::path& folder) {
+  StoredResult stored;
+  stored.folder = folder;
+  const fs::path record = folder / record_file;
+  std::ifstream stream(record);
+  if (!stream)
+    throw InvalidInput(
+        fmt::format("{}: no whole result here ({} is missing); make one with: tunica run SCENE "
+                    "--out {}",
+                    folder.string(), record_file, folder.string()));
+  stored.record = Json::parse(stream, nullptr, false);
+  if (!stored.record.is_object() || stored.record.value("program", Json()) != "tunica")
+    throw InvalidInput(fmt::format("{}: not the record of a run of tunica", record.string()));
+  for (const TableFile& file : table_files) {
+    const fs::path path = folder / file.name;
+    const bool needed = file.table == &Result::observables;
+    if (needed || fs::exists(path)) stored.result.*file.table = observables::read_csv(path.string());
+  }
+  return stored;
+}
+
+}  // namespace tunica
