@@ -1,0 +1,20 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# What an install holds beside the libraries and headers (see TunicaTarget.cmake): the program, the
+# scenes, and the files that find_package(tunica) reads.
+include(CMakePackageConfigHelpers)
+
+set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/tunica)
+configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/tunicaConfig.cmake.in
+                              ${PROJECT_BINARY_DIR}/tunicaConfig.cmake INSTALL_DESTINATION ${package_folder})
+# Before 1.0 a minor version may change the interface.
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/tunicaConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/tunicaConfig.cmake ${PROJECT_BINARY_DIR}/tunicaConfigVersion.cmake
+              ${CMAKE_CURRENT_LIST_DIR}/FindUDUNITS2.cmake
+        DESTINATION ${package_folder})
+install(EXPORT tunicaTargets NAMESPACE tunica:: DESTINATION ${package_folder})
+
+if(TARGET tunica)
+  install(TARGETS tunica RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/tunica)
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
