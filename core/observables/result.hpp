@@ -84,6 +84,7 @@ struct ProfilePoint {
   double radius = none;                   ///< cm, in the unloaded wall
   double radial_displacement = none;      ///< cm
   double circumferential_stretch = none;  ///< deformed over unloaded circumference
+  double volume_ratio = none;             ///< J, deformed over unloaded volume
   double fiber_stretch = none;            ///< sqrt(I4bar) of family 1
   double fiber_angle = none;              ///< deg, as in WallPoint
   double recruitment = none;              ///< H of family 1

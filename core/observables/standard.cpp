@@ -63,6 +63,7 @@ Table profile_table() {
   table.add("radius", "cm");
   table.add("radial_displacement", "cm");
   table.add("circumferential_stretch", "1");
+  table.add("volume_ratio", "1");
   table.add("fiber_stretch", "1");
   table.add("fiber_angle", "deg");
   table.add("recruitment", "1");
@@ -71,10 +72,11 @@ Table profile_table() {
 }
 
 void append(Table& table, const ProfilePoint& point) {
-  expect_columns(table, 8);
-  append_numbers(table, 0,
-                 {point.time, point.radius, point.radial_displacement, point.circumferential_stretch,
-                  point.fiber_stretch, point.fiber_angle, point.recruitment, point.von_mises});
+  expect_columns(table, 9);
+  append_numbers(
+      table, 0,
+      {point.time, point.radius, point.radial_displacement, point.circumferential_stretch, point.volume_ratio,
+       point.fiber_stretch, point.fiber_angle, point.recruitment, point.von_mises});
 }
 
 Table event_table() {

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/observables/beat.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+
+namespace tunica::observables {
+
+namespace {
+
+const std::vector<double>* numbers(const Table& table, std::string_view name) {
+  const Column* column = table.find(name);
+  return column && !column->is_text() ? &column->values : nullptr;
+}
+
+/// A number of the scene as the record holds it; `none` when it is not there.
+double scene_number(const StoredResult& stored, const char* key) {
+  const auto scene = stored.record.find("scene");
+  if (scene == stored.record.end() || !scene->is_object()) return none;
+  const auto value = scene->find(key);
+  return value != scene->end() && value->is_number() ? value->get<double>() : none;
+}
+
+/// A moment at which fibres of a point switch, and what they are afterwards.
+struct Switch {
+  double time;
+  bool recruited;
+};
+
+std::vector<Switch> switches_from_events(const Table& events, const std::string& name) {
+  std::vector<Switch> switches;
+  const Column* time = events.find("time");
+  const Column* point = events.find("point");
+  const Column* event = events.find("event");
+  if (!time || !point || !event || !point->is_text() || !event->is_text()) return switches;
+  for (std::size_t row = 0; row < events.rows(); ++row)
+    if (point->labels[row] == name)
+      switches.push_back({time->values[row], event->labels[row] == "recruited"});
+  return switches;
+}
+
+/// Adds the switches that rows show and events do not, as when fibres are on the threshold at rest.
+void add_switches_between_rows(std::vector<Switch>& switches, const std::vector<double>& time,
+                               const std::vector<double>& recruitment) {
+  const std::size_t known = switches.size();
+  for (std::size_t row = 1; row < time.size(); ++row) {
+    const double before = recruitment[row - 1] - 0.5;
+    const double after = recruitment[row] - 0.5;
+    if ((before > 0) == (after > 0)) continue;
+    const double slack = 1e-9 * time.back();
+    const bool is_known = std::any_of(switches.begin(), switches.begin() + known, [&](const Switch& change) {
+      return change.recruited == (after > 0) && change.time >= time[row - 1] - slack &&
+             change.time <= time[row] + slack;
+    });
+    if (is_known) continue;
+    const double share = before / (before - after);
+    switches.push_back({time[row - 1] + share * (time[row] - time[row - 1]), after > 0});
+  }
+  std::stable_sort(switches.begin(), switches.end(),
+                   [](const Switch& a, const Switch& b) { return a.time < b.time; });
+}
+
+}  // namespace
+
+void Range::include(double value) {
+  lowest = std::fmin(lowest, value);
+  highest = std::fmax(highest, value);
+}
+
+Beat last_beat(const StoredResult& stored) {
+  const auto* time = numbers(stored.result.observables, "time");
+  if (!time || time->empty())
+    throw InvalidInput(fmt::format("{}: observables.csv has no rows", stored.folder.string()));
+  const double run_end = time->back();
+  const bool ended_early =
+      stored.record.value("interrupted", false) || !stored.record.value("failure", std::string()).empty();
+  const double beats = scene_number(stored, "time.beats");
+  Beat beat;
+  beat.period = scene_number(stored, "inlet.period");
+  if (!ended_early && beats > 0) beat.period = (run_end - time->front()) / beats;
+  // Output times are sums of steps: half a thousandth of a beat tells a whole beat from a cut one.
+  const double count = std::floor((run_end - time->front()) / beat.period + 5e-4);
+  beat.whole = count >= 1;
+  beat.start = beat.whole ? time->front() + (count - 1) * beat.period : time->front();
+  if (!beat.whole) beat.period = run_end - time->front();
+  const double slack = 1e-9 * beat.period;
+  beat.first = std::lower_bound(time->begin(), time->end(), beat.start - slack) - time->begin();
+  beat.last = std::upper_bound(time->begin(), time->end(), beat.end() + slack) - time->begin() - 1;
+  return beat;
+}
+
+Range range(const Table& table, std::string_view column, const Beat& beat) {
+  Range found;
+  if (const auto* values = numbers(table, column))
+    for (std::size_t row = beat.first; row <= beat.last && row < values->size(); ++row)
+      found.include((*values)[row]);
+  return found;
+}
+
+double value_at(const Table& table, std::string_view column, double time) {
+  const auto* times = numbers(table, "time");
+  const auto* values = numbers(table, column);
+  if (!times || !values || times->empty()) return none;
+  const double slack = 1e-9 * (times->back() - times->front());
+  if (time < times->front() - slack || time > times->back() + slack) return none;
+  const std::size_t after = std::min<std::size_t>(
+      std::lower_bound(times->begin(), times->end(), time) - times->begin(), times->size() - 1);
+  if (after == 0 || (*times)[after] <= time) return (*values)[after];
+  const double share = (time - (*times)[after - 1]) / ((*times)[after] - (*times)[after - 1]);
+  return (1 - share) * (*values)[after - 1] + share * (*values)[after];
+}
+
+double peak_time(const Table& table, std::string_view column, const Beat& beat) {
+  const auto* time = numbers(table, "time");
+  const auto* values = numbers(table, column);
+  if (!time || !values) return none;
+  std::size_t top = beat.first;
+  for (std::size_t row = beat.first; row <= beat.last; ++row)
+    if (is_none((*values)[top]) || (*values)[row] > (*values)[top]) top = row;
+  if (is_none((*values)[top])) return none;
+  if (top == beat.first || top == beat.last) return (*time)[top];
+  const double left = (*time)[top] - (*time)[top - 1];
+  const double right = (*time)[top + 1] - (*time)[top];
+  const double fall_left = (*values)[top] - (*values)[top - 1];
+  const double fall_right = (*values)[top] - (*values)[top + 1];
+  const double curvature = fall_left * right + fall_right * left;
+  if (!(curvature > 0)) return (*time)[top];
+  return (*time)[top] + 0.5 * (fall_left * right * right - fall_right * left * left) / curvature;
+}
+
+std::vector<std::pair<double, double>> recruited_intervals(const Result& result, int point, double from,
+                                                           double to) {
+  const std::string name = fmt::format("P{}", point);
+  const auto* time = numbers(result.observables, "time");
+  const auto* recruitment = numbers(result.observables, "recruitment." + name);
+  if (!time || !recruitment || time->empty() || is_none(recruitment->front())) return {};
+  std::vector<Switch> switches = switches_from_events(result.events, name);
+  add_switches_between_rows(switches, *time, *recruitment);
+  std::vector<std::pair<double, double>> intervals;
+  bool recruited = recruitment->front() > 0.5;
+  double since = time->front();
+  const auto close = [&](double end) {
+    const double start = std::max(since, from);
+    if (recruited && std::min(end, to) > start) intervals.emplace_back(start, std::min(end, to));
+  };
+  for (const Switch& change : switches) {
+    if (change.recruited == recruited) continue;
+    close(change.time);
+    recruited = change.recruited;
+    since = change.time;
+  }
+  close(time->back());
+  return intervals;
+}
+
+double recruited_share(const Result& result, int point, const Beat& beat) {
+  const auto* recruitment = numbers(result.observables, fmt::format("recruitment.P{}", point));
+  if (!recruitment || recruitment->empty() || is_none(recruitment->front())) return none;
+  double sum = 0;
+  for (const auto& [start, end] : recruited_intervals(result, point, beat.start, beat.end()))
+    sum += end - start;
+  return sum / beat.period;
+}
+
+}  // namespace tunica::observables
