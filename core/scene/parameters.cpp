@@ -102,8 +102,7 @@ void add_law_parameters(std::vector<Parameter>& all, const std::string& prefix, 
 
 void add_family_parameters(std::vector<Parameter>& all, const std::string& prefix) {
   all.push_back(number(prefix + "angle", "deg", {}, between(-90, 90),
-                       "Angle of this family to the circumference, positive towards +z.",
-                       "the tissue's fiber_angle"));
+                       "Angle of this family to the circumference, positive towards +z.", "must be given"));
   all.push_back(number(prefix + "weight", "1", 1.0, from_zero(1e3), "Factor on this family's energy."));
   all.push_back(number(prefix + "stiffness", "dyn/cm2", {}, from_zero(1e12),
                        "Coefficient alpha of this family.", "the tissue's fiber_stiffness"));
@@ -174,7 +173,7 @@ std::vector<Parameter> declare() {
        "What is prescribed at the inlet: \"ica\" (flow of the internal carotid artery), \"constant\" (flow), "
        "\"pressure\" (constant pressure), or the name of a CSV file with one period of time[s] and "
        "flow[cm3/s] or pressure[dyn/cm2] (any unit of that dimension)."});
-  all.push_back(number("inlet.flow", "cm3/s", {}, between(-1e4, 1e4),
+  all.push_back(number("inlet.flow", "cm3/s", {}, between(-1e5, 1e5),
                        "Mean flow of the \"ica\" and \"constant\" waveforms.",
                        "4.25 (radius/0.195)^2: the carotid's 255 ml/min scaled by lumen area"));
   all.push_back(number("inlet.pressure", "dyn/cm2", 133322.387, between(-1e7, 1e7),

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -47,7 +48,7 @@ class Scene {
   std::string name_;
   std::filesystem::path folder_;
   std::map<std::string, scene::Value, std::less<>> values_;
-  std::map<std::string, bool, std::less<>> set_;
+  std::set<std::string, std::less<>> set_;
   std::map<std::string, std::size_t, std::less<>> counts_;
   std::vector<std::string> remarks_;
 };

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+#include <udunits2.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <memory>
+#include <mutex>
+#include <optional>
+
+#include "core/error.hpp"
+#include "core/scene/message.hpp"
+#include "core/scene/scene.hpp"
+
+namespace tunica {
+
+namespace {
+
+using scene::in_quotes;
+using scene::one_line;
+
+struct FreeUnit {
+  void operator()(ut_unit* unit) const { ut_free(unit); }
+};
+struct FreeSystem {
+  void operator()(ut_system* system) const { ut_free_system(system); }
+};
+struct FreeConverter {
+  void operator()(cv_converter* converter) const { cv_free(converter); }
+};
+using Unit = std::unique_ptr<ut_unit, FreeUnit>;
+using Converter = std::unique_ptr<cv_converter, FreeConverter>;
+
+/// The UDUNITS-2 database with the names that people who work with blood flow write. Loading it
+/// takes milliseconds, as long as a whole 0D run, so it is loaded when the first unit is met.
+class UnitDatabase {
+ public:
+  UnitDatabase() : system_((ut_set_error_message_handler(ut_ignore), ut_read_xml(nullptr))) {
+    if (!system_)
+      throw InvalidInput(
+          "the UDUNITS-2 unit database cannot be read: set UDUNITS2_XML_PATH to udunits2.xml or write "
+          "numbers without units (CGS)");
+    name_unit("dyn", "dyne");
+    name_unit("deg", "arc_degree");
+    // UDUNITS derives mmHg from densities and gets another eighth digit than the project's value.
+    name_unit("mmHg", "1333.22387 dyne/cm2");
+  }
+
+  Unit parse(const std::string& text) const {
+    const bool ascii = std::all_of(text.begin(), text.end(), [](char c) { return (c & 0x80) == 0; });
+    return Unit(ut_parse(system_.get(), text.c_str(), ascii ? UT_ASCII : UT_UTF8));
+  }
+
+ private:
+  void name_unit(const char* name, const char* definition) {
+    const Unit unit = parse(definition);
+    ut_unmap_symbol_to_unit(system_.get(), name, UT_ASCII);
+    ut_map_symbol_to_unit(name, UT_ASCII, unit.get());
+  }
+
+  std::unique_ptr<ut_system, FreeSystem> system_;
+};
+
+/// The base units of a unit without its scale: "rad" for degrees, empty for a percentage. UDUNITS
+/// itself counts angles and plain ratios as one dimension.
+std::string base_units(const Unit& unit) {
+  std::array<char, 256> text{};
+  const int length = ut_format(unit.get(), text.data(), text.size(), UT_ASCII | UT_DEFINITION);
+  if (length < 0 || static_cast<std::size_t>(length) >= text.size()) return "?";
+  std::string_view units(text.data(), static_cast<std::size_t>(length));
+  double scale = 0;
+  const auto [end, error] = std::from_chars(units.data(), units.data() + units.size(), scale);
+  if (error == std::errc{}) units.remove_prefix(static_cast<std::size_t>(end - units.data()));
+  while (!units.empty() && units.front() == ' ') units.remove_prefix(1);
+  return std::string(units);
+}
+
+/// The factor from one unit to another, empty when the dimensions differ. Conversions with an offset
+/// (temperatures, time stamps) and between reciprocals (s and Hz) are none that a scene can mean.
+std::optional<double> factor_between(const Unit& from, const Unit& to) {
+  if (!ut_are_convertible(from.get(), to.get())) return std::nullopt;
+  if (ut_is_dimensionless(to.get()) && base_units(from) != base_units(to)) return std::nullopt;
+  const Converter converter(ut_get_converter(from.get(), to.get()));
+  if (!converter) return std::nullopt;
+  const double zero = cv_convert_double(converter.get(), 0.0);
+  const double one = cv_convert_double(converter.get(), 1.0);
+  const double two = cv_convert_double(converter.get(), 2.0);
+  const bool linear = zero == 0.0 && std::abs(two - 2 * one) <= 1e-12 * std::abs(one);
+  return linear ? std::optional(one) : std::nullopt;
+}
+
+double unit_factor(const std::string& unit, const std::string& target, const std::string& complaint) {
+  if (unit == target) return 1;
+  // UDUNITS keeps one parser state for the whole process.
+  static std::mutex mutex;
+  const std::lock_guard lock(mutex);
+  static const UnitDatabase database;
+  const Unit from = database.parse(unit);
+  if (!from)
+    throw InvalidInput(fmt::format("{}: the unit {} is not known; use {} or another UDUNITS-2 name",
+                                   complaint, in_quotes(unit), target == "1" ? "no unit or %" : target));
+  const std::optional<double> factor = factor_between(from, database.parse(target));
+  if (!factor)
+    throw InvalidInput(
+        target == "1"
+            ? fmt::format("{}: {} is not a unit of a plain ratio; write the number alone or with %",
+                          complaint, in_quotes(unit))
+            : fmt::format("{}: {} has another dimension than {}; write the number alone (in {}) or with a "
+                          "unit of that dimension",
+                          complaint, in_quotes(unit), target, target));
+  return *factor;
+}
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view blank = " \t";
+  const std::size_t first = text.find_first_not_of(blank);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(blank) - first + 1);
+}
+
+}  // namespace
+
+double convert_quantity(std::string_view text, const std::string& target_unit, std::string_view key) {
+  const bool ratio = target_unit == "1";
+  const std::string complaint = fmt::format("{} = {}", one_line(key), in_quotes(text));
+  const std::string remedy =
+      ratio ? "write a number, or a percentage such as \"1%\""
+            : fmt::format("write a number in {0}, or a number with a unit such as \"1 {0}\"", target_unit);
+  // Far beyond any unit that people write, and short enough for UDUNITS' recursive parser.
+  constexpr std::size_t longest_quantity = 100;
+  std::string_view rest = trimmed(text);
+  if (rest.size() > longest_quantity) throw InvalidInput(fmt::format("{}: too long; {}", complaint, remedy));
+  if (rest.starts_with('+')) rest.remove_prefix(1);
+
+  double value = 0;
+  const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), value);
+  if (error == std::errc::result_out_of_range)
+    throw InvalidInput(fmt::format("{}: the number is too large or too small; {}", complaint, remedy));
+  if (error != std::errc{})
+    throw InvalidInput(fmt::format("{}: not a number with a unit; {}", complaint, remedy));
+  if (!std::isfinite(value))
+    throw InvalidInput(fmt::format("{}: not a finite number; {}", complaint, remedy));
+  const std::string unit(trimmed(rest.substr(static_cast<std::size_t>(end - rest.data()))));
+
+  if (unit.empty()) {
+    if (ratio) return value;
+    throw InvalidInput(fmt::format("{}: a number in quotes needs a unit; {}", complaint, remedy));
+  }
+  if (ratio && unit == "%") return value / 100;
+  // UDUNITS would multiply: "1 000 cm" is no thousand centimetres but nothing.
+  if (std::string_view("0123456789+-.,_").find(unit.front()) != std::string_view::npos)
+    throw InvalidInput(fmt::format("{}: not one number with a unit; {}", complaint, remedy));
+  const double converted = value * unit_factor(unit, target_unit, complaint);
+  if (!std::isfinite(converted))
+    throw InvalidInput(fmt::format("{}: too large once in {}; {}", complaint, target_unit, remedy));
+  return converted;
+}
+
+}  // namespace tunica
