@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
@@ -184,8 +186,10 @@ Table parse_csv(std::string_view text, std::string_view name) {
 
 Table read_csv(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
+  // A folder opens like a file and fails only when read.
+  if (!file || std::filesystem::is_directory(path))
+    throw InvalidInput(fmt::format("{}: the file cannot be read", path));
   const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  if (!file.good() && !file.eof()) throw InvalidInput(fmt::format("{}: the file cannot be read", path));
   return parse_csv(text, path);
 }
 
