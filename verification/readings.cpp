@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "verification/readings.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <ranges>
+
+#include "core/scene/parameter.hpp"
+#include "core/wall/catalog.hpp"
+#include "verification/claims.hpp"
+
+namespace tunica::verification {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using observables::none;
+
+const Json& scene_of(const StoredResult& run) {
+  static const Json empty = Json::object();
+  const auto scene = run.record.find("scene");
+  return scene != run.record.end() && scene->is_object() ? *scene : empty;
+}
+
+std::string scene_text(const StoredResult& run, const char* key) {
+  const auto value = scene_of(run).find(key);
+  return value != scene_of(run).end() && value->is_string() ? value->get<std::string>() : std::string();
+}
+
+double scene_number(const StoredResult& run, const char* key) {
+  const auto value = scene_of(run).find(key);
+  return value != scene_of(run).end() && value->is_number() ? value->get<double>() : none;
+}
+
+/// Choices that the paper leaves open, or that do not change what is computed.
+bool is_free(std::string_view key) {
+  static constexpr std::string_view free_keys[] = {"wall.law",
+                                                   "tether.traction",
+                                                   "wall.exponent",
+                                                   "wall.activation_squared",
+                                                   "wall.activation_stretch",
+                                                   "wall.recruitment",
+                                                   "time.beats",
+                                                   "time.start"};
+  static constexpr std::string_view free_sections[] = {"accuracy.", "output.", "sensitivity."};
+  return std::find(std::begin(free_keys), std::end(free_keys), key) != std::end(free_keys) ||
+         std::any_of(std::begin(free_sections), std::end(free_sections),
+                     [&](std::string_view section) { return key.starts_with(section); });
+}
+
+/// The paper's value of a key: the declared default, or the law's own.
+std::optional<Json> paper_value(const std::string& key, const std::string& law) {
+  if (const auto* entry = wall::find_law(law); entry && key.starts_with("wall."))
+    for (const auto& parameter : entry->parameters)
+      if (key.substr(5) == parameter.key) return parameter.value;
+  const auto* parameter = scene::find_parameter(key);
+  if (!parameter || !parameter->default_value) return std::nullopt;
+  return std::visit([](const auto& value) { return Json(value); }, *parameter->default_value);
+}
+
+bool same_reading(const Reading& a, const Reading& b) {
+  const bool same_activation = (std::isnan(a.activation_squared) && std::isnan(b.activation_squared)) ||
+                               std::abs(a.activation_squared - b.activation_squared) < 1e-9;
+  return a.tier == b.tier && a.tether == b.tether && a.exponent == b.exponent && same_activation;
+}
+
+/// Whether a run belongs to a group: isotropic laws know no fibre reading, ZS no activation.
+bool fits(const Reading& run, const Reading& group) {
+  Reading relevant = group;
+  if (std::isnan(run.activation_squared)) relevant.activation_squared = none;
+  if (run.exponent == 0) relevant.exponent = 0;
+  return same_reading(run, relevant);
+}
+
+}  // namespace
+
+std::string_view short_name(std::string_view law) {
+  for (const PaperLaw& entry : paper_laws)
+    if (entry.name == law) return entry.label;
+  return law;
+}
+
+const ComparedRun* ReadingGroup::find(std::string_view law) const {
+  for (const ComparedRun& run : runs)
+    if (run.law == law) return &run;
+  return nullptr;
+}
+
+Reading read_reading(const StoredResult& run) {
+  Reading reading;
+  reading.tier = run.record.value("tier", std::string());
+  reading.tether = scene_text(run, "tether.traction");
+  const auto* law = wall::find_law(scene_text(run, "wall.law"));
+  if (!law || !law->has_fibers) return reading;
+  const double exponent = scene_number(run, "wall.exponent");
+  reading.exponent = std::isnan(exponent) ? 2 : std::lround(exponent);
+  if (!law->has_activation) return reading;
+  reading.activation_squared = scene_number(run, "wall.activation_squared");
+  if (std::isnan(reading.activation_squared)) {
+    const double stretch = scene_number(run, "wall.activation_stretch");
+    const double angle = scene_number(run, "wall.fiber_angle") * std::numbers::pi / 180;
+    reading.activation_squared = std::pow(stretch * std::cos(angle), 2) + std::pow(std::sin(angle), 2);
+  }
+  return reading;
+}
+
+std::string to_text(const Reading& reading, bool with_activation, bool with_exponent) {
+  std::string text = fmt::format("{}, tether {}", reading.tier, reading.tether);
+  if (with_activation && !std::isnan(reading.activation_squared))
+    text += fmt::format(", a² = {:.4f}", reading.activation_squared);
+  if (with_exponent && reading.exponent > 0) text += fmt::format(", exponent {}", reading.exponent);
+  return text;
+}
+
+std::string reading_of(const StoredResult& run) {
+  return to_text(read_reading(run), true, true);
+}
+
+std::vector<std::string> differences_from_paper(const StoredResult& run) {
+  std::vector<std::string> differences;
+  const auto set_keys = run.record.find("scene_set");
+  if (set_keys == run.record.end() || !set_keys->is_array()) return differences;
+  const Json& scene = scene_of(run);
+  for (const Json& entry : *set_keys) {
+    if (!entry.is_string()) continue;
+    const auto key = entry.get<std::string>();
+    if (is_free(key) || !scene.contains(key)) continue;
+    const std::optional<Json> paper = paper_value(key, scene_text(run, "wall.law"));
+    if (paper && *paper == scene[key]) continue;
+    differences.push_back(paper ? fmt::format("{} = {} (paper: {})", key, scene[key].dump(), paper->dump())
+                                : fmt::format("{} = {}", key, scene[key].dump()));
+  }
+  return differences;
+}
+
+std::vector<ReadingGroup> group_by_reading(const std::vector<StoredResult>& runs,
+                                           std::vector<std::string>& left_out) {
+  std::vector<ComparedRun> usable;
+  std::vector<Reading> readings;
+  const auto leave_out = [&](const StoredResult& run, const std::string& why) {
+    const auto folder = (run.folder / "").parent_path().filename();
+    left_out.push_back(fmt::format("{} ({}): {}", folder.string(), scene_text(run, "wall.law"), why));
+  };
+  for (const StoredResult& run : runs) {
+    ComparedRun compared{&run, scene_text(run, "wall.law"), {}};
+    const auto is_paper_law = [&](const PaperLaw& law) { return law.name == compared.law; };
+    if (std::none_of(std::begin(paper_laws), std::end(paper_laws), is_paper_law)) {
+      leave_out(run, "not one of the paper's laws");
+      continue;
+    }
+    if (const auto differences = differences_from_paper(run); !differences.empty()) {
+      leave_out(run, fmt::format("not the paper's straight artery: {}", fmt::join(differences, ", ")));
+      continue;
+    }
+    if (run.result.observables.rows() == 0 || !(compared.beat = observables::last_beat(run)).whole) {
+      leave_out(run, "the run ended before its first beat was over");
+      continue;
+    }
+    const Reading reading = read_reading(run);
+    const auto is_same = [&](std::size_t index) {
+      return usable[index].law == compared.law && same_reading(readings[index], reading);
+    };
+    if (std::ranges::any_of(std::views::iota(std::size_t{0}, usable.size()), is_same)) {
+      leave_out(run, "another run of this law and reading is compared");
+      continue;
+    }
+    usable.push_back(std::move(compared));
+    readings.push_back(reading);
+  }
+
+  // The most specific readings name the groups; a run with less to read joins all it fits.
+  std::vector<ReadingGroup> groups;
+  for (const bool want_activation : {true, false})
+    for (const bool want_exponent : {true, false})
+      for (const Reading& reading : readings) {
+        if (std::isnan(reading.activation_squared) == want_activation) continue;
+        if ((reading.exponent == 0) == want_exponent) continue;
+        const bool covered = std::any_of(groups.begin(), groups.end(), [&](const ReadingGroup& group) {
+          return fits(reading, group.reading);
+        });
+        if (!covered) groups.push_back({reading, {}});
+      }
+  for (ReadingGroup& group : groups)
+    for (const PaperLaw& law : paper_laws)
+      for (std::size_t index = 0; index < usable.size(); ++index) {
+        if (usable[index].law != law.name || !fits(readings[index], group.reading)) continue;
+        group.runs.push_back(usable[index]);
+      }
+  return groups;
+}
+
+}  // namespace tunica::verification
