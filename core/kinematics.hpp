@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/tensor.hpp"
+
+namespace tunica {
+
+/// J - 1 = tr H + (tr^2 H - tr H^2)/2 + det H for the displacement gradient H = F - I. No 1 is
+/// subtracted from 1, so the relative accuracy stays at round-off for strains of any smallness.
+template <class S>
+S volume_change(const Tensor<S>& displacement_gradient) {
+  const Tensor<S> minors = cofactor(displacement_gradient);
+  const S third = displacement_gradient(0, 0) * minors(0, 0) + displacement_gradient(0, 1) * minors(0, 1) +
+                  displacement_gradient(0, 2) * minors(0, 2);
+  return trace(displacement_gradient) + trace(minors) + third;
+}
+
+/// What the laws need of a deformation, computed from the displacement gradient H = F - I.
+template <class S>
+struct Kinematics {
+  Tensor<S> deformation_gradient;      ///< F
+  Tensor<S> left_cauchy_green_change;  ///< b - I = H + H^T + H H^T
+  S volume_change;                     ///< J - 1
+  S jacobian;                          ///< J
+  S log_jacobian;                      ///< ln J
+  S isochoric_factor_change;           ///< J^(-2/3) - 1, the same power in every frame
+  S isochoric_factor;                  ///< J^(-2/3)
+
+  explicit Kinematics(const Tensor<S>& gradient) : deformation_gradient(Tensor<S>::identity() + gradient) {
+    using std::expm1;
+    using std::log1p;
+    left_cauchy_green_change = gradient + transpose(gradient) + gradient * transpose(gradient);
+    volume_change = tunica::volume_change(gradient);
+    jacobian = 1.0 + volume_change;
+    log_jacobian = log1p(volume_change);
+    isochoric_factor_change = expm1((-2.0 / 3.0) * log_jacobian);
+    isochoric_factor = 1.0 + isochoric_factor_change;
+  }
+
+  /// I1bar - 3 = J^(-2/3) tr(b - I) + 3 (J^(-2/3) - 1)
+  S isochoric_first_invariant_change() const {
+    return isochoric_factor * trace(left_cauchy_green_change) + 3.0 * isochoric_factor_change;
+  }
+
+  /// First Piola-Kirchhoff stress P = tau F^-T of a Kirchhoff stress tau.
+  Tensor<S> piola_from_kirchhoff(const Tensor<S>& kirchhoff) const {
+    return kirchhoff * ((1.0 / jacobian) * cofactor(deformation_gradient));
+  }
+};
+
+/// Cauchy stress sigma = P F^T / J.
+template <class S>
+Tensor<S> cauchy_stress(const Tensor<S>& piola, const Tensor<S>& displacement_gradient) {
+  const Tensor<S> f = Tensor<S>::identity() + displacement_gradient;
+  return (1.0 / (1.0 + volume_change(displacement_gradient))) * (piola * transpose(f));
+}
+
+/// sqrt(3/2 s:s) with the deviator s of the Cauchy stress.
+template <class S>
+S von_mises_stress(const Tensor<S>& cauchy) {
+  using std::sqrt;
+  const Tensor<S> s = deviator(cauchy);
+  return sqrt(1.5 * contract(s, s));
+}
+
+}  // namespace tunica

@@ -1,0 +1,394 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/radial/compressible_ring.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/frame.hpp"
+
+namespace tunica::radial {
+
+using frame::Radial;
+
+struct CompressibleRing::Solution {
+  std::vector<Interval> mesh;
+  std::vector<double> displacement;  ///< nodal; neighbours share their end node
+};
+
+struct CompressibleRing::System {
+  Eigen::MatrixXd tangent;
+  Eigen::VectorXd residual;
+  /// The weak form tested with v = 1, p r_i = T(u_o) + int P_TT dR: it gives the pressure without the
+  /// slopes that round-off spoils in the short elements at a front.
+  double reaction = 0;
+  Eigen::VectorXd reaction_slope;
+};
+
+namespace {
+
+/// u(R) of an incompressible ring with the same lumen stretch: r^2 - R^2 is constant.
+Field incompressible_guess(const Ring<double>& ring, double lumen_stretch) {
+  const double r0 = ring.inner_radius;
+  const double shift = (lumen_stretch * lumen_stretch - 1) * r0 * r0;
+  return [&ring, shift](double xi) {
+    const double radius = ring.radius(xi);
+    const double current = std::sqrt(radius * radius + shift);
+    return std::pair{shift / (current + radius), radius / current - 1};
+  };
+}
+
+/// dP/dH restricted to the two entries of H that a ring has.
+struct RadialStress {
+  double radial, hoop;
+  std::array<double, 2> radial_tangent, hoop_tangent;
+};
+
+RadialStress radial_stress(const wall::Law<double>& law, double slope, double hoop) {
+  using Strain = Dual<double, 2>;
+  const auto gradient =
+      Tensor<Strain>::diagonal(Strain::variable(slope, 0), Strain::variable(hoop, 1), Strain(0.0));
+  const auto stress = wall::piola(law, gradient, Radial::axes());
+  return {stress(0, 0).value, stress(1, 1).value, stress(0, 0).derivative, stress(1, 1).derivative};
+}
+
+bool stress_jumps(const Ring<double>& ring) {
+  return std::any_of(ring.layers.begin(), ring.layers.end(), [](const auto& layer) {
+    const auto& families = wall::families(layer.law);
+    return std::any_of(families.begin(), families.end(),
+                       [](const auto& family) { return family.exponent == 1; });
+  });
+}
+
+Ring<double> with_sharpness_at_most(Ring<double> ring, double sharpness) {
+  for (auto& layer : ring.layers) {
+    std::visit(
+        [&](auto& law) {
+          if constexpr (wall::HasFamilies<std::decay_t<decltype(law)>>)
+            for (auto& family : law.families)
+              family.recruitment.sharpness = std::min(family.recruitment.sharpness, sharpness);
+        },
+        layer.law);
+  }
+  return ring;
+}
+
+std::size_t interval_at(const std::vector<Interval>& mesh, double xi) {
+  // An interface belongs to the inner element.
+  const auto it = std::lower_bound(mesh.begin(), mesh.end(), xi,
+                                   [](const Interval& interval, double x) { return interval.upper < x; });
+  return std::min<std::size_t>(it - mesh.begin(), mesh.size() - 1);
+}
+
+}  // namespace
+
+CompressibleRing::CompressibleRing(Ring<double> ring, std::vector<Seeded> seeded, Options options)
+    : ring_(std::move(ring)),
+      seeded_(std::move(seeded)),
+      options_(options),
+      line_(options.degree, options.points),
+      boundaries_(layer_boundaries(ring_)) {}
+
+Field CompressibleRing::field(const Solution& solution) const {
+  return [this, &solution](double xi) {
+    const auto s = state(ring_, solution, solution.displacement, xi);
+    return std::pair{s.displacement, s.radial_slope};
+  };
+}
+
+void CompressibleRing::interpolate(const Field& field, Solution& solution) const {
+  const int degree = line_.degree();
+  solution.displacement.resize(solution.mesh.size() * degree + 1);
+  for (std::size_t e = 0; e < solution.mesh.size(); ++e) {
+    const Interval& cell = solution.mesh[e];
+    for (int k = 0; k <= degree; ++k) {
+      const double xi = cell.lower + 0.5 * (cell.upper - cell.lower) * (1 + line_.node(k));
+      solution.displacement[e * degree + k] = field(std::min(xi, cell.upper)).first;
+    }
+  }
+}
+
+void CompressibleRing::assemble(const Ring<double>& ring, const Solution& solution, System& system) const {
+  const int n = line_.nodes();
+  const auto size = static_cast<Eigen::Index>(solution.displacement.size());
+  system.tangent.setZero(size, size);
+  system.residual.setZero(size);
+  system.reaction_slope.setZero(size);
+  system.reaction = 0;
+  std::vector<double> slope(n), hoop(n);
+  for (std::size_t e = 0; e < solution.mesh.size(); ++e) {
+    const Interval& cell = solution.mesh[e];
+    const auto& law = ring.layers[cell.layer].law;
+    const double half = 0.5 * (cell.upper - cell.lower);
+    const double half_width = half * ring.thickness;
+    const Eigen::Index first = static_cast<Eigen::Index>(e) * (n - 1);
+    for (std::size_t q = 0; q < line_.rule().size(); ++q) {
+      const double radius = ring.radius(cell.lower + half * (1 + line_.rule()[q].position));
+      double du = 0, u_over_r = 0;
+      for (int k = 0; k < n; ++k) {
+        slope[k] = line_.slope(q, k) / half_width;
+        hoop[k] = line_.shape(q, k) / radius;
+        du += slope[k] * solution.displacement[first + k];
+        u_over_r += hoop[k] * solution.displacement[first + k];
+      }
+      const RadialStress stress = radial_stress(law, du, u_over_r);
+      const double weight = line_.rule()[q].weight * half_width * Radial::measure(radius);
+      system.reaction += weight / radius * stress.hoop;
+      for (int i = 0; i < n; ++i) {
+        system.reaction_slope[first + i] +=
+            weight / radius * (stress.hoop_tangent[0] * slope[i] + stress.hoop_tangent[1] * hoop[i]);
+        system.residual[first + i] += weight * (stress.radial * slope[i] + stress.hoop * hoop[i]);
+        const double by_slope =
+            weight * (slope[i] * stress.radial_tangent[0] + hoop[i] * stress.hoop_tangent[0]);
+        const double by_hoop =
+            weight * (slope[i] * stress.radial_tangent[1] + hoop[i] * stress.hoop_tangent[1]);
+        for (int j = 0; j < n; ++j)
+          system.tangent(first + i, first + j) += by_slope * slope[j] + by_hoop * hoop[j];
+      }
+    }
+  }
+  const auto tether = ring.tether_force(seed(solution.displacement.back()));
+  system.residual[size - 1] += tether.value;
+  system.tangent(size - 1, size - 1) += tether.derivative[0];
+  system.reaction += tether.value;
+  system.reaction_slope[size - 1] += tether.derivative[0];
+}
+
+bool CompressibleRing::newton(const Ring<double>& ring, Solution& solution) const {
+  constexpr int most_iterations = 40;
+  // Convergence is quadratic: after an update this small the next would be far below round-off.
+  const double small_update = 1e-9 * ring.inner_radius;
+  const auto inner = solution.displacement.front();
+  System system;
+  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    assemble(ring, solution, system);
+    if (!system.residual.allFinite()) return false;
+    const Eigen::Index free = system.residual.size() - 1;
+    const Eigen::VectorXd update =
+        system.tangent.bottomRightCorner(free, free).partialPivLu().solve(-system.residual.tail(free));
+    if (!update.allFinite()) return false;
+
+    // A full step that would turn an element inside out is shortened.
+    double step = 1;
+    const std::vector<double> before = solution.displacement;
+    const auto inverted = [&] {
+      for (std::size_t k = 1; k < before.size(); ++k)
+        solution.displacement[k] = before[k] + step * update[k - 1];
+      const int degree = line_.degree();
+      for (std::size_t e = 0; e < solution.mesh.size(); ++e) {
+        const Interval& cell = solution.mesh[e];
+        const double half_width = 0.5 * (cell.upper - cell.lower) * ring.thickness;
+        for (std::size_t q = 0; q < line_.rule().size(); ++q) {
+          double du = 0;
+          for (int k = 0; k <= degree; ++k) du += line_.slope(q, k) * solution.displacement[e * degree + k];
+          if (1 + du / half_width <= 0) return true;
+        }
+      }
+      return false;
+    };
+    while (inverted() && step > 1e-3) step *= 0.5;
+    // Well-behaved walls converge in a few full steps. Where stress all but jumps Newton's method
+    // cycles around the jump, unless each step has to bring the residual down.
+    constexpr int full_steps = 6;
+    if (iteration >= full_steps) {
+      const double norm = system.residual.tail(free).norm();
+      const auto grows = [&] {
+        const auto r = residual(ring, solution, inner).nodal;
+        double sum = 0;
+        for (std::size_t k = 1; k < r.size(); ++k) sum += r[k] * r[k];
+        return !(std::sqrt(sum) < norm);
+      };
+      while (update.lpNorm<Eigen::Infinity>() > small_update && grows() && step > 1e-3) {
+        step *= 0.5;
+        inverted();
+      }
+    }
+    solution.displacement.front() = inner;
+    if (step == 1 && update.lpNorm<Eigen::Infinity>() < small_update) return true;
+  }
+  return false;
+}
+
+CompressibleRing::Solution CompressibleRing::solve_from(const Ring<double>& ring, double lumen_stretch,
+                                                        const Field& guess) const {
+  const double inner = (lumen_stretch - 1) * ring.inner_radius;
+  Solution solution;
+  solution.mesh = radial_mesh(boundaries_, find_fronts(ring, boundaries_, guess));
+  interpolate(guess, solution);
+  solution.displacement.front() = inner;
+  constexpr int most_fits = 30;
+  for (int fit = 0; fit < most_fits; ++fit) {
+    if (!newton(ring, solution))
+      throw SolverFailure(fmt::format(
+          "the wall has no equilibrium that Newton's method finds at lumen stretch {:.6g}", lumen_stretch));
+    const std::vector<Front> moved = find_fronts(ring, boundaries_, field(solution));
+    const bool fitted_already = std::all_of(
+        moved.begin(), moved.end(), [&](const Front& front) { return has_end_near(solution.mesh, front); });
+    if (fitted_already) return solution;
+    Solution fitted{radial_mesh(boundaries_, moved), {}};
+    interpolate(field(solution), fitted);
+    fitted.displacement.front() = inner;
+    solution = std::move(fitted);
+  }
+  throw SolverFailure(
+      fmt::format("the recruitment front does not settle at lumen stretch {:.6g}", lumen_stretch));
+}
+
+CompressibleRing::Solution CompressibleRing::solve(double lumen_stretch) const {
+  if (!(lumen_stretch > 0))
+    throw SolverFailure(fmt::format("the lumen has closed (stretch {:.6g})", lumen_stretch));
+  const Field guess = incompressible_guess(ring_, lumen_stretch);
+  try {
+    return solve_from(ring_, lumen_stretch, guess);
+  } catch (const SolverFailure&) {
+    return stress_jumps(ring_) ? solve_by_sharpening(lumen_stretch, guess)
+                               : solve_by_stretching(lumen_stretch);
+  }
+}
+
+CompressibleRing::Solution CompressibleRing::solve_by_sharpening(double lumen_stretch,
+                                                                 const Field& guess) const {
+  double sharpest = 0;
+  for (const auto& layer : ring_.layers)
+    for (const auto& family : wall::families(layer.law))
+      sharpest = std::max(sharpest, family.recruitment.sharpness);
+  double sharpness = 10, ratio = 4;
+  Solution solution = solve_from(with_sharpness_at_most(ring_, sharpness), lumen_stretch, guess);
+  while (sharpness < sharpest) {
+    const double next = std::min(sharpest, sharpness * ratio);
+    try {
+      solution = solve_from(with_sharpness_at_most(ring_, next), lumen_stretch, field(solution));
+      sharpness = next;
+    } catch (const SolverFailure&) {
+      ratio = std::sqrt(ratio);
+      if (ratio < 1.02) throw;
+    }
+  }
+  return solution;
+}
+
+CompressibleRing::Solution CompressibleRing::solve_by_stretching(double lumen_stretch) const {
+  double reached = 1, step = 0.25 * (lumen_stretch - 1);
+  Solution solution = solve_from(ring_, 1.0, incompressible_guess(ring_, 1.0));
+  while (std::abs(reached - lumen_stretch) > 1e-14) {
+    const double next = std::abs(lumen_stretch - reached) <= std::abs(step) ? lumen_stretch : reached + step;
+    try {
+      solution = solve_from(ring_, next, field(solution));
+      reached = next;
+      step *= 1.5;
+    } catch (const SolverFailure&) {
+      step *= 0.25;
+      if (std::abs(step) < 1e-3 * std::abs(lumen_stretch - 1)) throw;
+    }
+  }
+  return solution;
+}
+
+template <class P>
+CompressibleRing::Residual<P> CompressibleRing::residual(const Ring<P>& ring, const Solution& solution,
+                                                         const P& inner_displacement) const {
+  const int n = line_.nodes();
+  std::vector<P> displacement(solution.displacement.begin(), solution.displacement.end());
+  displacement.front() = inner_displacement;
+  Residual<P> result{std::vector<P>(displacement.size(), P(0.0)), ring.tether_force(displacement.back())};
+  for (std::size_t e = 0; e < solution.mesh.size(); ++e) {
+    const Interval& cell = solution.mesh[e];
+    const double half = 0.5 * (cell.upper - cell.lower);
+    const P half_width = half * ring.thickness;
+    const std::size_t first = e * (n - 1);
+    for (std::size_t q = 0; q < line_.rule().size(); ++q) {
+      const P radius = ring.radius(cell.lower + half * (1 + line_.rule()[q].position));
+      P u(0.0), du(0.0);
+      for (int k = 0; k < n; ++k) {
+        u += line_.shape(q, k) * displacement[first + k];
+        du += line_.slope(q, k) * displacement[first + k];
+      }
+      const Tensor<P> stress = wall::piola(ring.layers[cell.layer].law,
+                                           Radial::gradient(u, P(du / half_width), radius), Radial::axes());
+      const P weight = line_.rule()[q].weight * half_width * Radial::measure(radius);
+      result.reaction += weight * Radial::contract_with_test(stress, 1.0, P(0.0), radius);
+      for (int k = 0; k < n; ++k)
+        result.nodal[first + k] +=
+            weight *
+            Radial::contract_with_test(stress, line_.shape(q, k), P(line_.slope(q, k) / half_width), radius);
+    }
+  }
+  result.nodal.back() += ring.tether_force(displacement.back());
+  return result;
+}
+
+template <class P>
+WallState<P> CompressibleRing::state(const Ring<P>& ring, const Solution& solution,
+                                     const std::vector<P>& displacement, double xi) const {
+  const std::size_t e = interval_at(solution.mesh, xi);
+  const Interval& cell = solution.mesh[e];
+  const double half = 0.5 * (cell.upper - cell.lower);
+  const double position = (xi - cell.lower) / half - 1;
+  const int n = line_.nodes();
+  std::vector<double> shapes(n), slopes(n);
+  line_.shapes_at(position, shapes.data());
+  line_.slopes_at(position, slopes.data());
+  P u(0.0), du(0.0);
+  for (int k = 0; k < n; ++k) {
+    u += shapes[k] * displacement[e * (n - 1) + k];
+    du += slopes[k] * displacement[e * (n - 1) + k];
+  }
+  du = du / (half * ring.thickness);
+  return {u, du, P(0.0)};
+}
+
+RingResponse CompressibleRing::respond(double lumen_stretch, std::span<const double> places,
+                                       bool derivatives) const {
+  const Solution solution = solve(lumen_stretch);
+  const std::vector<double>& u = solution.displacement;
+  System system;
+  assemble(ring_, solution, system);
+  const Eigen::Index free = system.residual.size() - 1;
+  const auto factor = system.tangent.bottomRightCorner(free, free).partialPivLu();
+
+  // Along the curve of equilibria the free nodes follow the inner one: K_ff du_f/ds = -K_fi R0.
+  const double inner_radius = lumen_stretch * ring_.inner_radius;
+  const Eigen::VectorXd follow = factor.solve(-system.tangent.bottomLeftCorner(free, 1));
+  RingResponse response;
+  response.pressure = system.reaction / inner_radius;
+  const double reaction_slope = system.reaction_slope[0] + system.reaction_slope.tail(free).dot(follow);
+  response.pressure_slope = (reaction_slope - response.pressure) / inner_radius * ring_.inner_radius;
+
+  const auto state_with_stress = [&]<class P>(const Ring<P>& ring, const std::vector<P>& displacement,
+                                              double xi) {
+    WallState<P> s = state(ring, solution, displacement, xi);
+    const auto gradient = Radial::gradient(s.displacement, s.radial_slope, ring.radius(xi));
+    const auto& law = ring.layers[solution.mesh[interval_at(solution.mesh, xi)].layer].law;
+    s.radial_stress = cauchy_stress(wall::piola(law, gradient, Radial::axes()), gradient)(0, 0);
+    return s;
+  };
+  for (const double xi : places) response.states.push_back(state_with_stress(ring_, u, xi));
+  if (!derivatives) return response;
+
+  using D = Dual<double, 1>;
+  for (const Seeded& ring : seeded_) {
+    const D inner = (lumen_stretch - 1) * ring.inner_radius;
+    const Residual<D> r = residual(ring, solution, inner);
+    Eigen::VectorXd right(free);
+    for (Eigen::Index k = 0; k < free; ++k) right[k] = -r.nodal[k + 1].derivative[0];
+    const Eigen::VectorXd du = factor.solve(right);
+    const double reaction = r.reaction.derivative[0] + system.reaction_slope.tail(free).dot(du);
+    response.pressure_derivatives.push_back(
+        (reaction - response.pressure * lumen_stretch * ring.inner_radius.derivative[0]) / inner_radius);
+    std::vector<D> displacement(u.size());
+    displacement[0] = inner;
+    for (Eigen::Index k = 0; k < free; ++k) displacement[k + 1] = D(u[k + 1], {du[k]});
+    auto& states = response.state_derivatives.emplace_back();
+    for (const double xi : places) {
+      const WallState<D> s = state_with_stress(ring, displacement, xi);
+      states.push_back(
+          {s.displacement.derivative[0], s.radial_slope.derivative[0], s.radial_stress.derivative[0]});
+    }
+  }
+  return response;
+}
+
+}  // namespace tunica::radial

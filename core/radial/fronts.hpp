@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "core/radial/ring.hpp"
+
+namespace tunica::radial {
+
+/// Where the excess I4bar - a^2 of a collagen family passes a level that an element has to end at.
+/// For a kink that is level 0: the fibre stress bends there. A step of finite width (low sharpness,
+/// or exponent 1, whose stress jumps) is followed by the levels 0, +-1, +-4, +-16, ... of
+/// epsilon (I4bar - a^2). Levels, not distances, because with exponent 1 the tissue can linger at
+/// the threshold: over a finite depth I4bar = a^2 and the fibres are partly recruited.
+struct Front {
+  double xi;
+  double tolerance;  ///< how far the element boundary may lie from the front
+};
+
+/// xi of the inner surface, the boundaries between layers and the outer surface.
+std::vector<double> layer_boundaries(const Ring<double>& ring);
+
+/// I4bar - a^2 of a family at a place with displacement u and slope du/dR.
+double fiber_excess(const wall::CollagenFamily<double>& family, const Ring<double>& ring, double xi,
+                    double displacement, double slope);
+
+/// Displacement and slope as functions of xi inside a layer.
+using Field = std::function<std::pair<double, double>(double xi)>;
+
+/// The fronts inside the layers, sorted. Families that are mirror images share theirs.
+std::vector<Front> find_fronts(const Ring<double>& ring, const std::vector<double>& boundaries,
+                               const Field& field);
+
+/// An element of the radial mesh and the layer that it lies in.
+struct Interval {
+  double lower, upper;
+  std::size_t layer;
+};
+
+/// Elements that end at the layer boundaries and at the fronts.
+std::vector<Interval> radial_mesh(const std::vector<double>& boundaries, const std::vector<Front>& fronts);
+
+/// True when an element of the mesh ends at the front, as closely as it has to.
+bool has_end_near(const std::vector<Interval>& mesh, const Front& front);
+
+}  // namespace tunica::radial

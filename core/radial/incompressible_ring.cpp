@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/radial/incompressible_ring.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/frame.hpp"
+
+namespace tunica::radial {
+
+using frame::Radial;
+
+namespace {
+
+/// Displacement and its slope at xi.
+template <class P, class S>
+WallState<S> motion(const Ring<P>& ring, const S& lumen_stretch, double xi) {
+  using std::sqrt;
+  const P radius = ring.radius(xi);
+  const S shift = (lumen_stretch * lumen_stretch - 1.0) * (ring.inner_radius * ring.inner_radius);
+  const S current = sqrt(radius * radius + shift);
+  return {S(shift / (current + radius)), S(-shift / (current * (current + radius))), S(0.0)};
+}
+
+}  // namespace
+
+IncompressibleRing::IncompressibleRing(Ring<double> ring, std::vector<Seeded> seeded, int points)
+    : ring_(std::move(ring)),
+      seeded_(std::move(seeded)),
+      rule_(gauss_legendre(points)),
+      boundaries_(layer_boundaries(ring_)) {}
+
+template <class P, class S>
+S IncompressibleRing::integral(const Ring<P>& ring, const S& lumen_stretch, const std::vector<Interval>& mesh,
+                               double end) const {
+  S sum(0.0);
+  for (const Interval& cell : mesh) {
+    if (cell.lower >= end) break;
+    const double half = 0.5 * (std::min(cell.upper, end) - cell.lower);
+    for (const QuadraturePoint& point : rule_) {
+      const double xi = cell.lower + half * (1 + point.position);
+      const S radius(ring.radius(xi));
+      const WallState<S> m = motion(ring, lumen_stretch, xi);
+      const Tensor<S> kirchhoff =
+          wall::isochoric_kirchhoff(ring.layers[cell.layer].law,
+                                    Radial::gradient(m.displacement, m.radial_slope, radius), Radial::axes());
+      const S current = radius + m.displacement;
+      sum += point.weight * half * ring.thickness * Radial::measure(radius) *
+             (kirchhoff(1, 1) - kirchhoff(0, 0)) / (current * current);
+    }
+  }
+  return sum;
+}
+
+RingResponse IncompressibleRing::respond(double lumen_stretch, std::span<const double> places,
+                                         bool derivatives) const {
+  if (!(lumen_stretch > 0))
+    throw SolverFailure(fmt::format("the lumen has closed (stretch {:.6g})", lumen_stretch));
+  const auto fronts = find_fronts(ring_, boundaries_, [&](double xi) {
+    const auto m = motion(ring_, lumen_stretch, xi);
+    return std::pair{m.displacement, m.radial_slope};
+  });
+  const auto mesh = radial_mesh(boundaries_, fronts);
+
+  const auto pressure = [&]<class P, class S>(const Ring<P>& ring, const S& stretch) {
+    return ring.external_pressure(motion(ring, stretch, 1.0).displacement) +
+           integral(ring, stretch, mesh, 1.0);
+  };
+  const auto state = [&]<class P>(const Ring<P>& ring, const P& stretch, const P& lumen_pressure, double xi) {
+    WallState<P> s = motion(ring, stretch, xi);
+    s.radial_stress = integral(ring, stretch, mesh, xi) - lumen_pressure;
+    return s;
+  };
+
+  RingResponse response;
+  const auto by_stretch = pressure(ring_, seed(lumen_stretch));
+  response.pressure = by_stretch.value;
+  response.pressure_slope = by_stretch.derivative[0];
+  if (!std::isfinite(response.pressure) || !std::isfinite(response.pressure_slope))
+    throw SolverFailure(
+        fmt::format("the stress of the wall overflows at lumen stretch {:.6g}", lumen_stretch));
+  for (const double xi : places)
+    response.states.push_back(state(ring_, lumen_stretch, response.pressure, xi));
+  if (!derivatives) return response;
+
+  using D = Dual<double, 1>;
+  for (const Seeded& ring : seeded_) {
+    const D p = pressure(ring, D(lumen_stretch));
+    response.pressure_derivatives.push_back(p.derivative[0]);
+    auto& states = response.state_derivatives.emplace_back();
+    for (const double xi : places) {
+      const WallState<D> s = state(ring, D(lumen_stretch), p, xi);
+      states.push_back(
+          {s.displacement.derivative[0], s.radial_slope.derivative[0], s.radial_stress.derivative[0]});
+    }
+  }
+  return response;
+}
+
+}  // namespace tunica::radial

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/radial/ring.hpp"
+
+namespace tunica::radial {
+
+/// The lumen stretch at which a collagen family reaches its threshold I4bar = a^2 at a place.
+struct Threshold {
+  int place;                        ///< index into the places of the curve
+  std::size_t layer, family;        ///< family as it is numbered in its layer
+  double stretch;                   ///< of the lumen
+  std::vector<double> derivatives;  ///< of that stretch, for each parameter
+};
+
+/// Pressure and wall states as functions of the lumen stretch, tabulated once and then evaluated in
+/// nanoseconds: piecewise Chebyshev series whose pieces end where a recruitment front enters or
+/// leaves the wall or passes a place, since derivatives jump there. Pieces are made when first asked
+/// for and split until the last coefficients are below `tolerance` of the scale.
+///
+/// Not safe for use by several threads at once (the table grows on reading).
+class WallCurve {
+ public:
+  /// `places`: xi in [0, 1] where states are wanted.
+  WallCurve(std::unique_ptr<const RingModel> model, std::vector<double> places, double tolerance = 1e-10);
+
+  /// Range of lumen stretch that is tabulated; outside it every query throws SolverFailure.
+  static constexpr double least_stretch = 0.3;
+  static constexpr double greatest_stretch = 4.0;
+
+  double pressure(double stretch) const { return evaluate(stretch, 0); }
+  double pressure_slope(double stretch) const { return evaluate(stretch, 1); }
+  double displacement(double stretch, int place) const { return evaluate(stretch, 2 + 2 * place); }
+  double radial_slope(double stretch, int place) const { return evaluate(stretch, 3 + 2 * place); }
+  /// d/d(stretch) of a place's displacement and radial slope.
+  double displacement_rate(double stretch, int place) const { return differentiate(stretch, 2 + 2 * place); }
+  double radial_slope_rate(double stretch, int place) const { return differentiate(stretch, 3 + 2 * place); }
+  /// The same quantities' derivatives with respect to parameter number k, at fixed lumen stretch.
+  double pressure_derivative(double stretch, int k) const { return evaluate(stretch, parameter_channel(k)); }
+  double displacement_derivative(double stretch, int k, int place) const {
+    return evaluate(stretch, parameter_channel(k) + 1 + 2 * place);
+  }
+  double radial_slope_derivative(double stretch, int k, int place) const {
+    return evaluate(stretch, parameter_channel(k) + 2 + 2 * place);
+  }
+
+  /// The lumen stretch in equilibrium with a pressure. Throws SolverFailure when there is none.
+  double stretch_at(double pressure) const;
+
+  /// Makes the pieces between two stretches, so that later queries only evaluate.
+  void prepare(double from, double to) const;
+
+  const std::vector<Threshold>& thresholds() const { return thresholds_; }
+  const RingModel& model() const { return *model_; }
+  const std::vector<double>& places() const { return places_; }
+  /// Number of equilibria that have been solved for.
+  long solves() const { return solves_; }
+
+ private:
+  struct Piece {
+    double lower, upper;
+    std::vector<double> coefficients;  ///< [channel][term]
+  };
+  using Cell = std::vector<Piece>;
+
+  int channels() const;
+  int parameter_channel(int k) const;
+  const Piece& piece_at(double stretch) const;
+  void build(double lower, double upper, Cell& cell) const;
+  double evaluate(double stretch, int channel) const;
+  double differentiate(double stretch, int channel) const;
+  void find_thresholds();
+  RingResponse respond(double stretch, std::span<const double> places, bool derivatives) const;
+
+  std::unique_ptr<const RingModel> model_;
+  std::vector<double> places_;
+  double tolerance_;
+  std::vector<Threshold> thresholds_;
+  std::vector<double> breaks_;
+  mutable std::vector<Cell> cells_;
+  mutable const Piece* last_ = nullptr;
+  mutable long solves_ = 0;
+};
+
+}  // namespace tunica::radial

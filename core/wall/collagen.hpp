@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/kinematics.hpp"
+#include "core/wall/recruitment.hpp"
+
+namespace tunica::wall {
+
+/// Unit vectors along the vessel's circumference and axis where a law is evaluated.
+struct MaterialAxes {
+  Vector<double> circumferential;
+  Vector<double> axial;
+};
+
+/// A family of collagen fibres. Its energy (paper eqs. 13-15, with the square that the text has
+/// lost; exponent 1 is the form as printed) is, for x = I4bar - a^2,
+///   w alpha/2gamma (exp(gamma x^exponent) - 1),
+/// and its stress is multiplied by the recruited share H(x), so that the stress is not the gradient
+/// of this energy.
+template <class P>
+struct CollagenFamily {
+  P angle;               ///< beta, rad, to the circumference
+  P weight;              ///< w
+  P stiffness;           ///< alpha, dyn/cm2
+  P stiffening;          ///< gamma
+  P activation_squared;  ///< a^2
+  int exponent = 2;
+  Recruitment<P> recruitment{};
+
+  /// Energy of fully recruited fibres.
+  template <class S>
+  S energy(const S& excess) const {
+    using std::expm1;
+    const S power = exponent == 2 ? excess * excess : excess;
+    return weight * stiffness / (2.0 * stiffening) * expm1(stiffening * power);
+  }
+
+  /// a0 = cos(beta) e_circumferential + sin(beta) e_axial
+  Vector<P> direction(const MaterialAxes& axes) const {
+    using std::cos;
+    using std::sin;
+    const P c = cos(angle), s = sin(angle);
+    Vector<P> a0;
+    for (int i = 0; i < 3; ++i) a0[i] = c * axes.circumferential[i] + s * axes.axial[i];
+    return a0;
+  }
+
+  /// I4bar - a^2 = J^(-2/3) |F a0|^2 - a^2
+  template <class S>
+  S excess(const Kinematics<S>& k, const MaterialAxes& axes) const {
+    const Vector<S> a = k.deformation_gradient * direction(axes);
+    return k.isochoric_factor * dot(a, a) - activation_squared;
+  }
+
+  /// Kirchhoff stress H(x) 2 W'(x) J^(-2/3) dev(a x a), a = F a0, without the deviator:
+  /// the caller takes it once for all terms.
+  template <class S>
+  Tensor<S> kirchhoff_before_deviator(const Kinematics<S>& k, const MaterialAxes& axes) const {
+    const Vector<S> a = k.deformation_gradient * direction(axes);
+    const S x = k.isochoric_factor * dot(a, a) - activation_squared;
+    const S slope = energy(seed(x)).derivative[0];
+    return (2.0 * recruitment.share(x) * slope * k.isochoric_factor) * outer(a, a);
+  }
+};
+
+/// a^2 = lambda_A^2 cos^2 beta + sin^2 beta: fibres at angle beta are recruited when the tissue is
+/// stretched by lambda_A along the circumference at constant length.
+template <class P>
+P activation_squared(const P& activation_stretch, const P& angle) {
+  using std::cos;
+  using std::sin;
+  const P c = cos(angle), s = sin(angle);
+  return activation_stretch * activation_stretch * (c * c) + s * s;
+}
+
+/// What the observables show of a family at a point.
+struct FiberState {
+  double stretch;      ///< sqrt(I4bar)
+  double recruitment;  ///< H
+  double angle;        ///< rad, deformed fibre against the deformed circumference, 0 to pi/2
+};
+
+/// The angle is that between F a0 and F e_circumferential.
+inline FiberState fiber_state(const CollagenFamily<double>& family,
+                              const Tensor<double>& displacement_gradient, const MaterialAxes& axes) {
+  const Kinematics<double> k(displacement_gradient);
+  const Vector<double> fiber = k.deformation_gradient * family.direction(axes);
+  const Vector<double> ring = k.deformation_gradient * axes.circumferential;
+  const Vector<double> normal{fiber[1] * ring[2] - fiber[2] * ring[1],
+                              fiber[2] * ring[0] - fiber[0] * ring[2],
+                              fiber[0] * ring[1] - fiber[1] * ring[0]};
+  return {std::sqrt(k.isochoric_factor * dot(fiber, fiber)), family.recruitment.share(family.excess(k, axes)),
+          std::atan2(std::sqrt(dot(normal, normal)), std::abs(dot(fiber, ring)))};
+}
+
+}  // namespace tunica::wall
