@@ -17,6 +17,19 @@ namespace {
 /// Rows of observables.csv that still fit into memory and a plot (a few gigabytes of text).
 constexpr double most_rows = 5e6;
 
+/// A key of the same name elsewhere, rather below the same table: a layer's stiffness for the wall's.
+std::string same_name(std::string_view key, const std::vector<std::string>& keys) {
+  const std::string name = "." + std::string(key.substr(key.rfind('.') + 1));
+  const std::string_view table = key.substr(0, key.find('.'));
+  std::string best;
+  for (const std::string& other : keys) {
+    if (!other.ends_with(name)) continue;
+    if (other.starts_with(table)) return other;
+    if (best.empty()) best = other;
+  }
+  return best;
+}
+
 }  // namespace
 
 void SceneReader::check() const {
@@ -147,7 +160,8 @@ void SceneReader::check_sensitivities() const {
     if (!seen.insert(key).second)
       refuse(list, fmt::format("{} names {} twice; leave one out", list, scene::in_quotes(key)));
     if (std::find(keys.begin(), keys.end(), key) != keys.end()) continue;
-    const std::string near = scene::nearest(key, keys);
+    std::string near = scene::nearest(key, keys);
+    if (near.empty()) near = same_name(key, keys);
     const char* why =
         !scene::find_parameter(key) ? "is not a key" : "is no number that this scene's results depend on";
     refuse(list, fmt::format("{} has {}, which {}{}", list, scene::in_quotes(key), why,

@@ -58,7 +58,9 @@ class Walk {
     for (const auto& [key, node] : table) {
       const std::string name = path.empty() ? std::string(key.str()) : path + "." + std::string(key.str());
       // A dot or bracket inside a quoted key must not look like a path.
-      if (key.str().find_first_of(".[]") != std::string_view::npos) unknown(name, node);
+      if (key.str().find_first_of(".[]") != std::string_view::npos)
+        refuse(node, fmt::format("unknown key {}; write keys without quotes, dots apart tables and names",
+                                 in_quotes(name)));
       if (is_table_array(name))
         tables(node, name);
       else if (is_table(name))

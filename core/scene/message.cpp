@@ -99,12 +99,12 @@ std::string did_you_mean(std::string_view suggestion) {
 
 std::string shown(const Value& value) {
   struct Show {
-    std::string operator()(double number) const { return fmt::format("{:g}", number); }
+    std::string operator()(double number) const { return fmt::format("{:.10g}", number); }
     std::string operator()(long number) const { return fmt::format("{}", number); }
     std::string operator()(bool flag) const { return flag ? "true" : "false"; }
     std::string operator()(const std::string& text) const { return in_quotes(text); }
     std::string operator()(const std::vector<double>& numbers) const {
-      return one_line(fmt::format("[{:g}]", fmt::join(numbers, ", ")));
+      return one_line(fmt::format("[{:.10g}]", fmt::join(numbers, ", ")));
     }
     std::string operator()(const std::vector<std::string>& texts) const {
       std::vector<std::string> each;

@@ -67,8 +67,9 @@ void apply_override(toml::table& root, const std::string& text, const std::strin
         fmt::format("{} {}: write key=value, for example outlet.resistance=1e6", place, in_quotes(text)));
   if (!find_parameter(key) && !is_table_array(key)) {
     const std::string hint = did_you_mean(nearest_key(key));
-    throw InvalidInput(fmt::format("{}: unknown key {}{}", place, one_line(key),
-                                   hint.empty() ? "; docs/parameters.md lists every key" : hint));
+    throw InvalidInput(fmt::format(
+        "{}: unknown key {}{}", place, one_line(key),
+        hint.empty() ? "; name a key of a table, such as geometry.radius (docs/parameters.md)" : hint));
   }
 
   toml::table* table = &root;

@@ -211,7 +211,7 @@ std::vector<Parameter> declare() {
                  Kind::numbers,
                  "s",
                  std::vector<double>{0.2112, 0.6},
-                 "",
+                 "scaled by period/0.8 s",
                  {0.0, infinity, false, true},
                  {},
                  "Times within the last beat at which profiles through the wall are written."});

@@ -138,7 +138,7 @@ std::vector<Element> list_from(const toml::node& node, const Parameter& paramete
   std::vector<Element> list;
   const auto check_length = [&](std::size_t length) {
     if (length > longest_list)
-      refuse(key, "a list", fmt::format("has {} entries, more than {}", length, longest_list),
+      refuse(key, "(a list)", fmt::format("has {} entries, more than {}", length, longest_list),
              allowed(parameter));
   };
   if (const toml::array* array = node.as_array()) {
@@ -161,9 +161,9 @@ std::string shown(const toml::node& node) {
   if (const auto* floating = node.as_floating_point()) return fmt::format("{:.10g}", floating->get());
   if (const auto* boolean = node.as_boolean()) return boolean->get() ? "true" : "false";
   if (const auto* text = node.as_string()) return in_quotes(text->get());
-  if (node.is_table()) return "a table";
-  if (node.is_array()) return "a list";
-  return "a date or time";
+  if (node.is_table()) return "(a table)";
+  if (node.is_array()) return "(a list)";
+  return "(a date or time)";
 }
 
 Value typed_value(const toml::node& node, const Parameter& parameter, const std::string& key) {

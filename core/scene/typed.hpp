@@ -13,7 +13,7 @@ namespace tunica::scene {
 /// Throws InvalidInput: "key = value ...: what is allowed", without the place.
 Value typed_value(const toml::node& node, const Parameter& parameter, const std::string& key);
 
-/// A node as a scene file would write it, for messages: "3", "\"ica\"", "a table".
+/// A node as a scene file would write it, for messages: "3", "\"ica\"", "(a table)".
 std::string shown(const toml::node& node);
 
 }  // namespace tunica::scene

@@ -44,6 +44,7 @@ class UnitDatabase {
           "numbers without units (CGS)");
     name_unit("dyn", "dyne");
     name_unit("deg", "arc_degree");
+    name_unit("P", "poise");
     // UDUNITS derives mmHg from densities and gets another eighth digit than the project's value.
     name_unit("mmHg", "1333.22387 dyne/cm2");
   }
@@ -70,10 +71,14 @@ std::string base_units(const Unit& unit) {
   const int length = ut_format(unit.get(), text.data(), text.size(), UT_ASCII | UT_DEFINITION);
   if (length < 0 || static_cast<std::size_t>(length) >= text.size()) return "?";
   std::string_view units(text.data(), static_cast<std::size_t>(length));
-  double scale = 0;
-  const auto [end, error] = std::from_chars(units.data(), units.data() + units.size(), scale);
-  if (error == std::errc{}) units.remove_prefix(static_cast<std::size_t>(end - units.data()));
-  while (!units.empty() && units.front() == ' ') units.remove_prefix(1);
+  // "0.01 1" for a percentage: the scale, and the unit of a plain number.
+  for (std::errc error{}; error == std::errc{};) {
+    double scale = 0;
+    const auto number = std::from_chars(units.data(), units.data() + units.size(), scale);
+    error = number.ec;
+    if (error == std::errc{}) units.remove_prefix(static_cast<std::size_t>(number.ptr - units.data()));
+    while (!units.empty() && units.front() == ' ') units.remove_prefix(1);
+  }
   return std::string(units);
 }
 

@@ -83,7 +83,7 @@ class WaveformReader {
 
   void header(const std::vector<std::string_view>& cells) {
     if (cells.size() != 2)
-      refuse_line(fmt::format("{} columns where two are expected; {}", cells.size(), columns_remedy));
+      refuse_line(fmt::format("the header has {} of two columns; {}", cells.size(), columns_remedy));
     for (std::size_t i = 0; i < cells.size(); ++i) {
       const std::size_t open = cells[i].find('[');
       const std::string_view name = trimmed(cells[i].substr(0, open));
@@ -108,13 +108,18 @@ class WaveformReader {
   double scale(const std::string& unit, const std::string& target, std::string_view name) const {
     try {
       return convert_quantity("1 " + unit, target, name);
-    } catch (const InvalidInput& error) {
-      refuse_line(error.what());
+    } catch (const InvalidInput&) {
+      refuse_line(fmt::format(
+          "{}[{}] has an unknown unit or one of another dimension; write {}[{}] or a unit of that "
+          "dimension",
+          name, one_line(unit), name, target));
     }
   }
 
   void row(const std::vector<std::string_view>& cells) {
-    if (cells.size() != 2) refuse_line(fmt::format("{} cells where two are expected", cells.size()));
+    if (cells.size() != 2)
+      refuse_line(
+          fmt::format("the row has {} of two cells; write time and value, apart by a comma", cells.size()));
     result_.time.push_back(number(cells[time_.index], time_));
     result_.value.push_back(number(cells[value_.index], value_));
     if (!value_.bounds->bounds.contains(result_.value.back()))

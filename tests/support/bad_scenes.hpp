@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace tunica::test_support {
+
+/// A scene that must be refused before any work, with one line that helps its author.
+struct BadScene {
+  std::string name;  ///< letters, digits and underscores
+  /// Writes the scene (and what it needs) into an empty folder and returns the path to read.
+  std::function<std::filesystem::path(const std::filesystem::path& folder)> prepare;
+  std::vector<std::string> overrides;  ///< "key=value"
+  std::vector<std::string> words;      ///< what the message must contain: the place, the key, the remedy
+};
+
+const std::vector<BadScene>& bad_scenes();
+
+}  // namespace tunica::test_support
