@@ -19,7 +19,7 @@ constexpr double most_rows = 5e6;
 
 /// A key of the same name elsewhere, rather below the same table: a layer's stiffness for the wall's.
 std::string same_name(std::string_view key, const std::vector<std::string>& keys) {
-  const std::string name = "." + std::string(key.substr(key.rfind('.') + 1));
+  const std::string name = fmt::format(".{}", key.substr(key.rfind('.') + 1));
   const std::string_view table = key.substr(0, key.find('.'));
   std::string best;
   for (const std::string& other : keys) {
@@ -138,6 +138,7 @@ std::vector<std::string> SceneReader::keys_with_sensitivity() const {
     if (layered && !tissue.starts_with("wall.layers")) return name != "density";
     if (tissue.find("families") != std::string::npos) return false;
     if (name == "fraction") return true;
+    if (name == "sharpness") return scene_.text(tissue + "recruitment") == "sharp";
     return scene_.count(tissue + "families") > 0 &&
            (name.starts_with("fiber_") || name.starts_with("activation_"));
   };

@@ -60,7 +60,8 @@ std::string toml_value(const scene::Value& value) {
 }
 
 std::string bracketed_unit(const Parameter& parameter) {
-  return parameter.unit.empty() || parameter.unit == "1" ? std::string{} : "[" + parameter.unit + "]";
+  return parameter.unit.empty() || parameter.unit == "1" ? std::string{}
+                                                         : fmt::format("[{}]", parameter.unit);
 }
 
 /// "[cm] Inner radius ...", with what can be chosen.

@@ -54,7 +54,7 @@ std::string cell(std::string_view text) {
 
 std::string default_of(const Parameter& parameter) {
   if (!parameter.default_value) return parameter.derived_default;
-  const std::string value = "`" + shown(*parameter.default_value) + "`";
+  const std::string value = fmt::format("`{}`", shown(*parameter.default_value));
   return parameter.derived_default.empty() ? value : value + ", " + parameter.derived_default;
 }
 

@@ -96,7 +96,6 @@ std::string SceneReader::reason_unused_in_tissue(const std::string& prefix, std:
   if (key == "bulk_modulus" && scene_.flag("wall.incompressible")) return "wall.incompressible is true";
   if (key == "fiber_angle" && scene_.count(prefix + "families") > 0)
     return "its families give their own angles";
-  if (key == "sharpness" && scene_.text(prefix + "recruitment") == "sharp") return "recruitment is \"sharp\"";
   if (is_activation(key)) {
     const std::string used = activation(sources, law).first;
     if (used != key) return fmt::format("{} is given", used);

@@ -2,6 +2,7 @@
 #include "tests/support/bad_scenes.hpp"
 
 #include <fstream>
+#include <initializer_list>
 #include <string_view>
 
 namespace tunica::test_support {
@@ -19,6 +20,12 @@ std::string repeated(std::string_view piece, std::size_t times) {
   std::string text;
   text.reserve(piece.size() * times);
   for (std::size_t i = 0; i < times; ++i) text += piece;
+  return text;
+}
+
+std::string joined(std::initializer_list<std::string_view> pieces) {
+  std::string text;
+  for (const std::string_view piece : pieces) text += piece;
   return text;
 }
 
@@ -72,21 +79,24 @@ std::vector<BadScene> files() {
       {"random_bytes", scene("\xff\xfe\x80\x9b\xc3\x28\x01\n"), {}, {"bad.toml", "line 1", "not TOML"}},
       {"not_utf8", scene("[wall]\nlaw = \"EXP\xe9\"\n"), {}, {"bad.toml", "line 2", "not TOML"}},
       {"ten_megabytes_of_nesting",
-       scene("a = " + repeated("[", 10'000'000)),
+       scene(joined({"a = ", repeated("[", 10'000'000)})),
        {},
        {"bad.toml", "bytes", "at most"}},
-      {"deep_nesting", scene("a = " + repeated("[", 1'000'000)), {}, {"bad.toml", "line 1", "nest"}},
-      {"deep_inline_tables", scene("a = " + repeated("{a=", 100'000)), {}, {"bad.toml", "line 1", "nest"}},
+      {"deep_nesting", scene(joined({"a = ", repeated("[", 1'000'000)})), {}, {"bad.toml", "line 1", "nest"}},
+      {"deep_inline_tables",
+       scene(joined({"a = ", repeated("{a=", 100'000)})),
+       {},
+       {"bad.toml", "line 1", "nest"}},
       {"deep_dotted_key",
-       scene(repeated("a.", 1'000'000) + "a = 1\n"),
+       scene(joined({repeated("a.", 1'000'000), "a = 1\n"})),
        {},
        {"bad.toml", "dotted parts", "wall.layers"}},
       {"deep_dotted_header",
-       scene("[" + repeated("\"a\" . ", 500'000) + "a]\n"),
+       scene(joined({"[", repeated("\"a\" . ", 500'000), "a]\n"})),
        {},
        {"bad.toml", "dotted parts"}},
       {"huge_file",
-       scene("[geometry]\n" + repeated("# 0123456789\n", 400'000)),
+       scene(joined({"[geometry]\n", repeated("# 0123456789\n", 400'000)})),
        {},
        {"bad.toml", "bytes", "at most 4000000"}},
   };
@@ -154,7 +164,7 @@ std::vector<BadScene> names() {
        {},
        {"unknown key", "geometry.radius", "write keys without quotes"}},
       {"key_with_line_break", scene("\"a\\nb\" = 1\n"), {}, {"unknown key a\\x0ab"}},
-      {"huge_key", scene(repeated("k", 1'000'000) + " = 1\n"), {}, {"unknown key kkk", "..."}},
+      {"huge_key", scene(joined({repeated("k", 1'000'000), " = 1\n"})), {}, {"unknown key kkk", "..."}},
       {"key_below_a_number",
        scene("[geometry]\nradius.inner = 1\n"),
        {},
@@ -249,7 +259,7 @@ std::vector<BadScene> kinds() {
        {},
        {"output.profile_times", "\"late\"", "write a number in s"}},
       {"list_too_long",
-       scene("[output]\nprofile_times = [" + repeated("0.1,", 1000) + "]\n"),
+       scene(joined({"[output]\nprofile_times = [", repeated("0.1,", 1000), "]\n"})),
        {},
        {"output.profile_times", "more than 100"}},
       {"list_of_numbers_as_texts",
@@ -318,7 +328,7 @@ std::vector<BadScene> units() {
        {},
        {"outlet.pressure", "out of range", "-1e+07 to 1e+07"}},
       {"endless_unit",
-       scene("[outlet]\npressure = \"1 " + repeated("(", 100'000) + "\"\n"),
+       scene(joined({"[outlet]\npressure = \"1 ", repeated("(", 100'000), "\"\n"})),
        {},
        {"outlet.pressure", "too long"}},
   };

@@ -314,6 +314,8 @@ TEST(SceneSensitivities, NameNumbersThatAct) {
   EXPECT_NE(asks(layer, "wall.stiffness").find("did you mean \"wall.layers[0].stiffness\"?"),
             std::string::npos);
   EXPECT_NE(asks(layer, "wall.layers[0].fraction"), "accepted");
+  EXPECT_EQ(asks("[wall]\n", "wall.sharpness"), "accepted");
+  EXPECT_NE(asks("[wall]\nrecruitment = \"sharp\"\n", "wall.sharpness"), "accepted");
   const std::string family = "[[wall.families]]\nangle = 30\n";
   EXPECT_EQ(asks(family, "wall.families[0].angle"), "accepted");
   EXPECT_EQ(asks(family, "wall.stiffness"), "accepted");
