@@ -33,6 +33,11 @@ Verdict qualitative(bool holds) {
   return holds ? Verdict::qualitative_agreement : Verdict::disagrees;
 }
 
+/// "EXP1 75.0", held together by a no-break space.
+std::string labelled(std::string_view law, double value, int decimals) {
+  return fmt::format("{}\u00a0{:.{}f}", short_name(law), value, decimals);
+}
+
 double number_of(const std::string& text) {
   return std::stod(text);
 }
@@ -45,7 +50,7 @@ Answer per_law(const Claim& claim, const ReadingGroup& group, int decimals,
   for (const ComparedRun& run : group.runs) {
     const double value = quantity(run);
     if (is_none(value)) return needs("columns that the runs lack");
-    parts.push_back(fmt::format("{} {:.{}f}", short_name(run.law), value, decimals));
+    parts.push_back(labelled(run.law, value, decimals));
     within = within && std::abs(value - number_of(claim.value)) <= number_of(claim.tolerance);
   }
   Answer answer;
@@ -68,8 +73,7 @@ Answer change_of_radius(const Claim& claim, const ReadingGroup& group) {
                           [&](const ComparedRun& run) { return displacement(run).width() / radius_of(run); });
   std::vector<std::string> largest;
   for (const ComparedRun& run : group.runs)
-    largest.push_back(
-        fmt::format("{} {:.3f}", short_name(run.law), displacement(run).highest / radius_of(run)));
+    largest.push_back(labelled(run.law, displacement(run).highest / radius_of(run), 3));
   answer.note = fmt::format("largest displacement over R0: {}", fmt::join(largest, ", "));
   return answer;
 }
@@ -84,8 +88,8 @@ Answer transmural_range(const Claim& claim, const ReadingGroup& group) {
   for (const ComparedRun& run : group.runs) {
     const Range found = range(run.table(), "transmural_pressure", run.beat);
     if (is_none(found.lowest)) return needs("columns that the runs lack");
-    parts.push_back(
-        fmt::format("{} {:.1f} to {:.1f}", short_name(run.law), found.lowest / mmhg, found.highest / mmhg));
+    parts.push_back(fmt::format("{}\u00a0{:.1f}\u00a0to\u00a0{:.1f}", short_name(run.law),
+                                found.lowest / mmhg, found.highest / mmhg));
     within = within && std::abs(found.lowest / mmhg - lowest) <= tolerance &&
              std::abs(found.highest / mmhg - highest) <= tolerance;
   }
@@ -319,8 +323,8 @@ Answer volume_change(const Claim& claim, const ReadingGroup& group) {
     if (ratio)
       for (const double value : ratio->values) change.include(std::abs(value - 1));
     if (is_none(change.highest)) return needs("profiles with the volume ratio");
-    parts.push_back(fmt::format("{} {:.4f}", short_name(run.law), change.highest));
-    within = within && change.highest <= number_of(claim.value);
+    parts.push_back(labelled(run.law, change.highest, 4));
+    within = within && change.highest <= number_of(claim.value) * (1 + 1e-9);
   }
   Answer answer;
   answer.ours = fmt::format("{}", fmt::join(parts, ", "));

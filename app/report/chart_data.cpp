@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "app/report/html.hpp"
+#include "app/report/sections.hpp"
+
+namespace tunica::report {
+
+namespace {
+
+using namespace observables;
+
+constexpr double stress_unit = 1e5;  // dyn/cm2
+constexpr int digits = 7;
+constexpr int time_digits = 10;  // times of different runs are compared by the script
+
+/// The unit that the charts show a column in, as a number of the column's own.
+double display_unit(const Column& column) {
+  if (column.name.starts_with("von_mises")) return stress_unit;
+  return column.unit == "dyn/cm2" ? mmhg : 1.0;
+}
+
+void append_array(std::string& json, const std::vector<double>& values, double factor, int precision) {
+  json += '[';
+  for (const double value : values) {
+    char buffer[32];
+    if (std::isfinite(value)) {
+      const auto end =
+          std::to_chars(buffer, buffer + sizeof buffer, value * factor, std::chars_format::general, precision)
+              .ptr;
+      json.append(buffer, end);
+    } else {
+      json += "null";
+    }
+    json += ',';
+  }
+  if (json.back() == ',') json.pop_back();
+  json += ']';
+}
+
+bool has_values(const std::vector<double>& values) {
+  for (const double value : values)
+    if (std::isfinite(value)) return true;
+  return false;
+}
+
+/// Builds a JSON object member by member; numbers are written straight, for speed.
+class Object {
+ public:
+  explicit Object(std::string& json) : json_(json) { json_ += '{'; }
+  Object(const Object&) = delete;
+  Object& operator=(const Object&) = delete;
+  ~Object() { json_ += '}'; }
+
+  std::string& key(std::string_view name) {
+    if (!first_) json_ += ',';
+    first_ = false;
+    json_ += script_string(name) + ":";
+    return json_;
+  }
+  void text(std::string_view name, std::string_view value) { key(name) += script_string(value); }
+  void value(std::string_view name, double value) { append_value(key(name), value); }
+
+ private:
+  static void append_value(std::string& json, double value) {
+    json += std::isfinite(value) ? fmt::format("{:.{}g}", value, time_digits) : "null";
+  }
+  std::string& json_;
+  bool first_ = true;
+};
+
+void append_columns(Object& run, const Table& table) {
+  Object columns(run.key("columns"));
+  for (const Column& column : table.columns()) {
+    if (column.is_text() || column.name == "time" || !has_values(column.values)) continue;
+    append_array(columns.key(column.name), column.values, 1 / display_unit(column), digits);
+  }
+}
+
+void append_intervals(Object& run, const RunSummary& summary) {
+  if (is_none(summary.recruited_share[0])) return;
+  Object points(run.key("recruited"));
+  for (int point = 1; point <= wall_points; ++point) {
+    std::string& json = points.key(fmt::format("P{}", point));
+    json += '[';
+    bool first = true;
+    for (const auto& [from, to] : recruited_intervals(summary.stored->result, point, 0, summary.period_end)) {
+      if (!first) json += ',';
+      first = false;
+      append_array(json, {from, to}, 1, time_digits);
+    }
+    json += ']';
+  }
+}
+
+/// Rows of profiles.csv that belong to one time.
+void append_profiles(Object& run, const RunSummary& summary) {
+  const Table& table = summary.stored->result.profiles;
+  const Column* time = table.find("time");
+  if (!time || time->values.empty()) return;
+  std::string& json = run.key("profiles");
+  json += '[';
+  for (std::size_t first = 0; first < table.rows();) {
+    std::size_t end = first;
+    while (end < table.rows() && time->values[end] == time->values[first]) ++end;
+    if (first > 0) json += ',';
+    Object profile(json);
+    profile.value("time", time->values[first] - summary.beat.start);
+    Object columns(profile.key("columns"));
+    for (const Column& column : table.columns()) {
+      if (column.is_text() || &column == time) continue;
+      const std::vector<double> values(column.values.begin() + static_cast<long>(first),
+                                       column.values.begin() + static_cast<long>(end));
+      if (has_values(values))
+        append_array(columns.key(column.name), values, 1 / display_unit(column), digits);
+    }
+    first = end;
+  }
+  json += ']';
+}
+
+/// "d(pressure)/d(outlet.resistance)" taken apart.
+std::optional<std::pair<std::string, std::string>> parts_of(const std::string& name) {
+  const std::size_t middle = name.find(")/d(");
+  if (!name.starts_with("d(") || middle == std::string::npos || name.back() != ')') return std::nullopt;
+  return std::pair{name.substr(2, middle - 2), name.substr(middle + 4, name.size() - middle - 5)};
+}
+
+/// Derivatives are shown as the change of a quantity when a parameter grows by 1 %, which compares
+/// parameters of different units. A parameter that is 0 has no per cent.
+void append_sensitivities(Object& run, const RunSummary& summary) {
+  const Table& table = summary.stored->result.sensitivities;
+  const Column* time = table.find("time");
+  if (!time) return;
+  const auto& scene = summary.stored->record.value("scene", nlohmann::ordered_json::object());
+  std::map<std::string, std::map<std::string, const Column*>> by_quantity;
+  std::map<std::string, double> values;
+  std::map<std::string, bool> without_percent;
+  for (const Column& column : table.columns()) {
+    const auto parts = parts_of(column.name);
+    if (!parts || column.is_text() || !has_values(column.values)) continue;
+    const auto& [quantity, key] = *parts;
+    const auto value = scene.find(key);
+    if (value == scene.end() || !value->is_number() || value->get<double>() == 0) {
+      without_percent[key] = true;
+      continue;
+    }
+    values[key] = value->get<double>();
+    by_quantity[quantity][key] = &column;
+  }
+  Object sensitivities(run.key("sensitivities"));
+  append_array(sensitivities.key("time"), time->values, 1, time_digits);
+  std::string& skipped = sensitivities.key("without_percent");
+  nlohmann::ordered_json names = nlohmann::ordered_json::array();
+  for (const auto& [key, yes] : without_percent) names.push_back(key);
+  skipped += script_json(names);
+  Object quantities(sensitivities.key("quantities"));
+  for (const auto& [quantity, columns] : by_quantity) {
+    const Column* own = summary.stored->result.observables.find(quantity);
+    const double unit = own ? display_unit(*own) : 1.0;
+    Object parameters(quantities.key(quantity));
+    for (const auto& [key, column] : columns)
+      append_array(parameters.key(key), column->values, 0.01 * values[key] / unit, digits);
+  }
+}
+
+}  // namespace
+
+std::string chart_data(const std::vector<RunSummary>& runs) {
+  std::string json;
+  {
+    Object all(json);
+    all.key("runs") += '[';
+    bool first = true;
+    for (const RunSummary& summary : runs) {
+      if (!first) json += ',';
+      first = false;
+      Object run(json);
+      run.text("label", summary.label);
+      {
+        Object beat(run.key("beat"));
+        beat.value("start", summary.beat.start);
+        beat.value("period", summary.beat.period);
+      }
+      append_array(run.key("time"), summary.stored->result.observables.find("time")->values, 1, time_digits);
+      append_columns(run, summary.stored->result.observables);
+      append_intervals(run, summary);
+      append_profiles(run, summary);
+      append_sensitivities(run, summary);
+    }
+    json += ']';
+  }
+  return json;
+}
+
+}  // namespace tunica::report

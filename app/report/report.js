@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+"use strict";
+(() => {
+  const page = document.documentElement;
+  const fail = message => {
+    page.dataset.status = "error";
+    page.dataset.message = message;
+    const banner = document.getElementById("failure");
+    banner.textContent = `The charts could not be drawn: ${message}`;
+    banner.hidden = false;
+  };
+  addEventListener("error", event => fail(event.message));
+  addEventListener("unhandledrejection", event => fail(String(event.reason)));
+
+  const {Figure, element, colour} = Chart;
+  const points = ["P1", "P2", "P3", "P4"];
+  const figures = [];
+  const runs = JSON.parse(document.getElementById("data").textContent).runs;
+  let span = "beat";
+
+  // Rows shown: all, or those of the run's last beat with time counted from its start. Times are rounded
+  // so that equal instants of different runs are equal numbers.
+  const rounded = time => Math.round(time * 1e8) / 1e8;
+  for (const run of runs) {
+    const slack = 1e-9 + 1e-9 * run.beat.period;
+    const first = run.time.findIndex(time => time >= run.beat.start - slack);
+    let end = run.time.length;
+    while (end > first && run.time[end - 1] > run.beat.start + run.beat.period + slack) --end;
+    run.spans = {
+      run: {first: 0, end: run.time.length, x: run.time},
+      beat: {first, end, x: run.time.slice(first, end).map(time => rounded(time - run.beat.start))},
+    };
+  }
+  const timeLabel = () => span === "beat" ? "time in the last beat, s" : "time, s";
+  const cut = (run, values) => values.slice(run.spans[span].first, run.spans[span].end);
+
+  const note = (parent, text) => parent.append(element("p", {class: "note"}, text));
+  const missing = (lines, why) => {
+    const without = runs.filter((run, index) => !lines.some(line => line.run === index)).map(run => run.label);
+    return without.length ? `Not shown: ${without.join("; ")} (${why}).` : "";
+  };
+
+  // A chart over time. parts: [[column, label], ...].
+  function timeChart(spec, parts) {
+    const parent = document.getElementById("time-charts");
+    const lines = [];
+    runs.forEach((run, at) => parts.forEach(([column, label], part) => {
+      const values = run.columns[column];
+      if (values) lines.push({run: at, runLabel: run.label, part, partLabel: label, source: values, x: run.spans[span].x, y: cut(run, values)});
+    }));
+    const why = spec.why || "not among the results";
+    if (!lines.length) return note(parent, `${spec.title}: ${why}.`);
+    const figure = new Figure(parent, {
+      sync: "time", xLabel: timeLabel, digits: 3, ...spec, lines,
+      caption: [spec.caption, missing(lines, why)].filter(Boolean).join(" "),
+    });
+    figure.changeSpan = () => {
+      for (const line of lines) {
+        line.x = runs[line.run].spans[span].x;
+        line.y = cut(runs[line.run], line.source);
+      }
+      figure.update();
+    };
+    figures.push(figure);
+  }
+  const atPoints = quantity => points.map(point => [`${quantity}.${point}`, point]);
+
+  // Bars of the intervals in which fibres are recruited, a lane for each point, P1 on top, and a bar for each
+  // run in a lane. The inflow of the first run lies behind, as in the paper's figure.
+  function intervalChart() {
+    const parent = document.getElementById("time-charts");
+    const spec = {id: "intervals", title: "Intervals of recruitment", figure: "cf. Fig. 14d"};
+    const withFibres = runs.map((run, index) => ({run, index})).filter(entry => entry.run.recruited);
+    if (!withFibres.length) return note(parent, `${spec.title}: no fibres in these laws.`);
+    const lane = part => points.length - 1 - part;
+    const lines = withFibres.flatMap(({run, index}) => points.map((point, part) => ({
+      run: index, runLabel: run.label, part, partLabel: point, intervals: run.recruited[point],
+    })));
+    const shift = line => span === "beat" ? runs[line.run].beat.start : 0;
+    const reach = () => Math.max(...withFibres.map(({run}) => span === "beat" ? run.beat.period : run.time.at(-1)));
+    // The bars have no samples of their own: a fine grid lets the cursor tell what is recruited.
+    const setData = () => {
+      const x = Array.from({length: 1601}, (_, index) => rounded(reach() * index / 1600));
+      for (const line of lines) { line.x = x; line.y = x.map(() => lane(line.part)); }
+    };
+    setData();
+    const draw = figure => {
+      const {plot} = figure, {ctx, bbox} = plot, ratio = uPlot.pxRatio;
+      ctx.save();
+      ctx.beginPath();
+      ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
+      ctx.clip();
+      const flow = withFibres[0].run;
+      if (flow.columns.inflow) {
+        const values = cut(flow, flow.columns.inflow);
+        const highest = Math.max(...values);
+        ctx.beginPath();
+        flow.spans[span].x.forEach((time, index) => ctx.lineTo(plot.valToPos(time, "x", true),
+          bbox.top + bbox.height * (1 - .9 * Math.max(0, values[index]) / highest)));
+        ctx.lineTo(plot.valToPos(flow.spans[span].x.at(-1), "x", true), bbox.top + bbox.height);
+        ctx.lineTo(plot.valToPos(flow.spans[span].x[0], "x", true), bbox.top + bbox.height);
+        ctx.fillStyle = colour("--shade");
+        ctx.fill();
+      }
+      const laneHeight = Math.abs(plot.valToPos(0, "y", true) - plot.valToPos(1, "y", true)) * .64;
+      const barHeight = Math.min(16 * ratio, laneHeight / withFibres.length);
+      for (const line of lines) {
+        if (!line.shown) continue;
+        const order = withFibres.findIndex(entry => entry.index === line.run);
+        const top = plot.valToPos(lane(line.part), "y", true) + (order - withFibres.length / 2) * barHeight;
+        ctx.fillStyle = colour(line.colour);
+        for (const [from, to] of line.intervals) {
+          const left = plot.valToPos(from - shift(line), "x", true), right = plot.valToPos(to - shift(line), "x", true);
+          ctx.fillRect(left, top + ratio, Math.max(ratio, right - left), barHeight - 2 * ratio);
+        }
+      }
+      ctx.restore();
+    };
+    const figure = new Figure(parent, {
+      ...spec, sync: "time", xLabel: timeLabel, digits: 0, lines, draw,
+      caption: `Bars: fibres recruited. Grey: inflow, scaled. ${missing(lines, "no fibres")}`,
+      range: () => [-.6, points.length - .4],
+      axis: {splits: () => points.map((_, part) => lane(part)).reverse(),
+             values: () => [...points].reverse(), grid: {show: false}, ticks: {show: false}},
+      valueAt: (line, time) => line.intervals.some(([from, to]) => time + shift(line) >= from && time + shift(line) <= to)
+        ? "recruited" : "–",
+    });
+    figure.changeSpan = () => { setData(); figure.update(); };
+    figures.push(figure);
+  }
+
+  function profileChart(spec, column) {
+    const parent = document.getElementById("profile-charts");
+    const times = [...new Set(runs.flatMap(run => (run.profiles || []).map(profile => profile.time.toFixed(4))))]
+      .sort((a, b) => a - b);
+    const lines = [];
+    runs.forEach((run, at) => (run.profiles || []).forEach(profile => {
+      if (profile.columns[column] && profile.columns.radius)
+        lines.push({run: at, runLabel: run.label, part: times.indexOf(profile.time.toFixed(4)),
+                    partLabel: `${Number(profile.time.toFixed(4))} s`, x: profile.columns.radius, y: profile.columns[column]});
+    }));
+    const why = spec.why || "no profiles among the results";
+    if (!lines.length) return note(parent, `${spec.title}: ${why}.`);
+    figures.push(new Figure(parent, {
+      sync: "radius", xLabel: () => "radius in the unloaded wall, cm", digits: 3, ...spec, lines, caption: missing(lines, why),
+    }));
+  }
+
+  function sensitivityChart() {
+    const section = document.getElementById("sensitivity-section");
+    const parent = document.getElementById("sensitivity-charts");
+    const select = document.getElementById("quantity");
+    const withThem = runs.map((run, index) => ({run, index})).filter(entry => entry.run.sensitivities);
+    const quantities = [...new Set(withThem.flatMap(({run}) => Object.keys(run.sensitivities.quantities)))];
+    if (!withThem.length) return;
+    section.hidden = false;
+    const keys = [...new Set(withThem.flatMap(({run}) => Object.values(run.sensitivities.quantities).flatMap(Object.keys)))].sort();
+    const skipped = [...new Set(withThem.flatMap(({run}) => run.sensitivities.without_percent))];
+    if (skipped.length) note(parent, `Not shown, as 1 % of them is nothing: ${skipped.join(", ")}. See sensitivities.csv.`);
+    if (!quantities.length) return;
+    for (const quantity of quantities) select.append(element("option", {}, quantity));
+    const unitOf = quantity => /^von_mises/.test(quantity) ? "10\u2075 dyn/cm²" : /pressure/.test(quantity) ? "mmHg" :
+      /flow/.test(quantity) ? "cm³/s" : /displacement/.test(quantity) ? "cm" : /angle/.test(quantity) ? "°" : "";
+    let figure = null;
+    const show = () => {
+      const lines = withThem.flatMap(({run, index}) => keys.filter(key => run.sensitivities.quantities[select.value]?.[key]).map(key => ({
+        run: index, runLabel: run.label, part: keys.indexOf(key), partLabel: key, source: run.sensitivities.quantities[select.value][key],
+      })));
+      const place = () => {
+        for (const line of lines) {
+          const run = runs[line.run], all = run.sensitivities.time;
+          const kept = all.map((time, at) => at).filter(at => span === "run" ||
+            (all[at] >= run.beat.start - 1e-9 && all[at] <= run.beat.start + run.beat.period + 1e-9));
+          line.x = kept.map(at => span === "run" ? all[at] : rounded(all[at] - run.beat.start));
+          line.y = kept.map(at => line.source[at]);
+        }
+      };
+      place();
+      if (figure) { figure.plot.destroy(); figure.root.remove(); figures.splice(figures.indexOf(figure), 1); }
+      figure = new Figure(parent, {id: "sensitivity", title: `Change of ${select.value} for +1 %`, unit: unitOf(select.value),
+        sync: "time", xLabel: timeLabel, digits: 4, height: 320, lines});
+      figure.changeSpan = () => { place(); figure.update(); };
+      figures.push(figure);
+    };
+    select.addEventListener("change", show);
+    show();
+  }
+
+  timeChart({id: "pressure", title: "Pressure", unit: "mmHg", figure: "cf. Fig. 6", digits: 2},
+            [["pressure", "mid-length"], ["outlet_pressure", "outlet"]]);
+  timeChart({id: "transmural", title: "Transmural pressure", unit: "mmHg", digits: 2}, [["transmural_pressure", "transmural"]]);
+  timeChart({id: "flow", title: "Flow", unit: "cm³/s", figure: "cf. Fig. 5", digits: 4}, [["inflow", "in"], ["outflow", "out"]]);
+  timeChart({id: "displacement", title: "Displacement of the inner surface", unit: "cm", figure: "cf. Fig. 10", digits: 5},
+            [["radial_displacement.P1", "P1"]]);
+  timeChart({id: "displacement-points", title: "Displacement through the wall", unit: "cm", figure: "cf. Fig. 14b", digits: 5},
+            atPoints("radial_displacement"));
+  timeChart({id: "angle", title: "Fibre angle", unit: "°", figure: "cf. Figs. 12–13", digits: 2, why: "no fibres"}, atPoints("fiber_angle"));
+  timeChart({id: "stretch", title: "Fibre stretch", digits: 4, why: "no fibres"}, atPoints("fiber_stretch"));
+  timeChart({id: "mises", title: "Von Mises stress", unit: "10\u2075 dyn/cm²", digits: 3}, atPoints("von_mises"));
+  timeChart({id: "recruitment", title: "Recruitment H", figure: "cf. Fig. 14c", digits: 3, why: "no fibres", range: () => [-.06, 1.06]},
+            atPoints("recruitment"));
+  intervalChart();
+  profileChart({id: "profile-circumferential", title: "Circumferential stretch", digits: 4}, "circumferential_stretch");
+  profileChart({id: "profile-fiber", title: "Fibre stretch", digits: 4, why: "no fibres"}, "fiber_stretch");
+  profileChart({id: "profile-mises", title: "Von Mises stress", unit: "10\u2075 dyn/cm²", figure: "cf. Figs. 15–16"}, "von_mises");
+  sensitivityChart();
+
+  // With several runs, a button for each hides or shows it in all charts.
+  if (runs.length > 1) {
+    const list = document.getElementById("run-list");
+    list.hidden = false;
+    runs.forEach((run, index) => {
+      const swatch = element("span", {class: "swatch", style: `background:var(--c${index % 8})`});
+      const button = element("button", {type: "button", "aria-pressed": "true"}, swatch, run.label);
+      button.addEventListener("click", () => {
+        const shown = button.getAttribute("aria-pressed") !== "true";
+        button.setAttribute("aria-pressed", String(shown));
+        for (const figure of figures) figure.toggleRun(index, shown);
+      });
+      list.append(button);
+    });
+  }
+
+  for (const radio of document.querySelectorAll("input[name=span]"))
+    radio.addEventListener("change", () => {
+      span = radio.value;
+      for (const figure of figures) if (figure.changeSpan) figure.changeSpan();
+    });
+  document.getElementById("reset").addEventListener("click", () => figures.forEach(figure => figure.resetZoom()));
+
+  let waiting = 0;
+  new ResizeObserver(() => {
+    cancelAnimationFrame(waiting);
+    waiting = requestAnimationFrame(() => figures.forEach(figure => figure.resize()));
+  }).observe(document.querySelector("main"));
+
+  const repaint = () => {
+    Chart.forgetColours();
+    figures.forEach(figure => figure.repaint());
+  };
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", repaint);
+  // Paper is white and narrower than most windows.
+  addEventListener("beforeprint", () => {
+    page.classList.add("printing");
+    figures.forEach(figure => figure.resize(330));
+    repaint();
+  });
+  addEventListener("afterprint", () => {
+    page.classList.remove("printing");
+    figures.forEach(figure => figure.resize());
+    repaint();
+  });
+
+  Promise.all(figures.map(figure => figure.drawn)).then(() => {
+    page.dataset.charts = String(figures.length);
+    if (page.dataset.status === "loading") page.dataset.status = "ok";
+  });
+})();

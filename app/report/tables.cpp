@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <array>
+#include <map>
+#include <stdexcept>
+#include <utility>
+
+#include "app/report/html.hpp"
+#include "app/report/sections.hpp"
+#include "verification/claims.hpp"
+
+namespace tunica::report {
+
+namespace {
+
+using namespace observables;
+using verification::ClaimRow;
+using verification::Verdict;
+
+std::string range_text(const Range& range, int decimals) {
+  if (is_none(range.lowest)) return "–";
+  const std::string lowest = number(range.lowest, decimals);
+  const std::string highest = number(range.highest, decimals);
+  return lowest == highest ? lowest : fmt::format("{} to {}", lowest, highest);
+}
+
+std::string swatch(std::size_t run) {
+  return fmt::format("<span class=\"swatch\" style=\"background:var(--c{})\"></span>", run % 8);
+}
+
+std::string run_header(const RunSummary& run, std::size_t index, const char* rest = "") {
+  return fmt::format("<th scope=\"row\" class=\"run\">{}{}{}</th>", swatch(index), escape(run.label), rest);
+}
+
+/// A table in a box that scrolls sideways by itself, so that the page does not.
+std::string table(std::string_view caption, std::string_view head, std::string_view body) {
+  return fmt::format(
+      "<div class=\"scroll\" tabindex=\"0\"><table><caption>{}</caption><thead>{}</thead>"
+      "<tbody>{}</tbody></table></div>\n",
+      caption, head, body);
+}
+
+std::string shares(const RunSummary& run) {
+  if (is_none(run.recruited_share[0])) return "<td class=\"none\" colspan=\"4\">no fibres</td>";
+  std::string cells;
+  for (const double share : run.recruited_share) cells += fmt::format("<td>{}</td>", number(100 * share, 1));
+  return cells;
+}
+
+struct VerdictLook {
+  const char* css_class;
+  const char* mark;
+  const char* plural;
+};
+VerdictLook look(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::agrees:
+      return {"agrees", "✓", "agree"};
+    case Verdict::disagrees:
+      return {"disagrees", "✗", "disagree"};
+    case Verdict::qualitative_agreement:
+      return {"agrees", "✓", "agree qualitatively"};
+    case Verdict::not_answered_by_tier:
+      return {"open", "○", "are not answered by this tier"};
+    case Verdict::not_answered_by_results:
+      return {"open", "○", "are not answered by these results"};
+  }
+  throw std::logic_error("a verdict without a look");
+}
+
+std::string verdict_counts(const std::vector<ClaimRow>& rows) {
+  std::map<Verdict, int> counts;
+  for (const ClaimRow& row : rows) ++counts[row.verdict];
+  std::string text;
+  for (const auto& [verdict, count] : counts)
+    text += fmt::format("<li class=\"{}\"><b>{}</b> {}</li>", look(verdict).css_class, count,
+                        look(verdict).plural);
+  return fmt::format("<ul class=\"counts\">{}</ul>\n", text);
+}
+
+std::string claim_cells(const ClaimRow& row, std::size_t span) {
+  const std::string tolerance =
+      row.tolerance.empty() ? "" : fmt::format("<br><small>{}</small>", escape(row.tolerance));
+  return fmt::format(
+      "<th scope=\"rowgroup\" rowspan=\"{0}\">{1}<br><small>{2} · {3}</small></th>"
+      "<td class=\"paper\" rowspan=\"{0}\">{4}{5}</td>",
+      span, escape(row.quantity), escape(row.where), escape(row.law),
+      row.paper.empty() ? "in words" : escape(row.paper), tolerance);
+}
+
+}  // namespace
+
+std::string headline_table(const std::vector<RunSummary>& runs) {
+  std::string body;
+  bool is_stopped = false;
+  for (std::size_t index = 0; index < runs.size(); ++index) {
+    const RunSummary& run = runs[index];
+    const std::string state = fmt::format("<br><small class=\"{}\">{}</small>",
+                                          run.is_complete ? "" : "stopped", escape(run.state));
+    is_stopped = is_stopped || !run.is_complete;
+    body += fmt::format("<tr>{}<td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>{}</tr>",
+                        run_header(run, index, state.c_str()), range_text(run.pressure, 1),
+                        range_text(run.transmural_pressure, 1), number(100 * run.radius_change, 1),
+                        number(100 * run.largest_radius, 1), range_text(run.angle_at_start, 2),
+                        range_text(run.angle_at_systole, 2), shares(run));
+  }
+  const char* head =
+      "<tr><th scope=\"col\" rowspan=\"2\">Run</th><th scope=\"col\" rowspan=\"2\">Pressure<br>mmHg</th>"
+      "<th scope=\"col\" rowspan=\"2\">Transmural<br>mmHg</th><th scope=\"colgroup\" colspan=\"2\">Inner "
+      "radius, % "
+      "of R<sub>0</sub></th><th scope=\"colgroup\" colspan=\"2\">Fibre angle P1 to P4, °</th>"
+      "<th scope=\"colgroup\" colspan=\"4\">Fibres recruited, % of the beat</th></tr>"
+      "<tr><th scope=\"col\">change</th><th scope=\"col\">largest rise</th><th scope=\"col\">start of "
+      "beat</th>"
+      "<th scope=\"col\">systole</th><th scope=\"col\">P1</th><th scope=\"col\">P2</th><th "
+      "scope=\"col\">P3</th>"
+      "<th scope=\"col\">P4</th></tr>";
+  const char* caption =
+      "Over the last whole beat. Pressure is the mean over the section at mid-length; change is the largest "
+      "minus "
+      "the smallest inner radius; systole is the peak of the inflow; P1 lies on the inner, P4 on the outer "
+      "surface.";
+  return table(caption, head, body);
+}
+
+std::string claims_section(const std::vector<StoredResult>& runs) {
+  const verification::Comparison comparison = verification::compare_with_paper(runs);
+  std::string text;
+  if (!comparison.rows.empty()) {
+    std::string body;
+    const auto& rows = comparison.rows;
+    for (std::size_t index = 0; index < rows.size(); ++index) {
+      const ClaimRow& row = rows[index];
+      std::size_t span = 0;
+      if (index == 0 || rows[index - 1].id != row.id)
+        for (std::size_t next = index; next < rows.size() && rows[next].id == row.id; ++next) ++span;
+      body += "<tr>" + (span > 0 ? claim_cells(row, span) : std::string());
+      body += fmt::format(
+          "<td class=\"text\">{}</td><td class=\"verdict {}\"><span aria-hidden=\"true\">{}</span> "
+          "{}</td><td class=\"text\">{}</td><td class=\"text\"><small>{}</small></td></tr>",
+          row.ours.empty() ? "–" : escape(row.ours), look(row.verdict).css_class, look(row.verdict).mark,
+          escape(verification::to_text(row.verdict)), escape(row.reading), escape(row.note));
+    }
+    text += verdict_counts(rows);
+    text += table(
+        "Each claim on the paper's straight artery beside these runs, with the reading of what the paper "
+        "misprints "
+        "or leaves open. A number agrees when it lies within the tolerance printed below the paper's.",
+        "<tr><th scope=\"col\">Claim</th><th scope=\"col\">Paper</th><th scope=\"col\">Ours</th>"
+        "<th scope=\"col\">Verdict</th><th scope=\"col\">Reading</th><th scope=\"col\">Remarks</th></tr>",
+        body);
+  }
+  for (const std::string& line : comparison.left_out)
+    text += fmt::format("<p class=\"note\">Not compared: {}</p>\n", escape(line));
+  return text;
+}
+
+std::string events_section(const std::vector<RunSummary>& runs) {
+  std::string body;
+  for (std::size_t index = 0; index < runs.size(); ++index) {
+    const Table& events = runs[index].stored->result.events;
+    const Column* time = events.find("time");
+    const Column* point = events.find("point");
+    const Column* event = events.find("event");
+    const Column* pressure = events.find("pressure");
+    if (!time || !point || !event || !point->is_text() || !event->is_text()) continue;
+    for (std::size_t row = 0; row < events.rows(); ++row) {
+      const double in_beat = time->values[row] - runs[index].beat.start;
+      body += fmt::format(
+          "<tr>{}<td class=\"text\">{}</td><td class=\"text\">{}</td><td>{}</td><td>{}</td><td>{}</td></tr>",
+          run_header(runs[index], index), escape(point->labels[row]), escape(event->labels[row]),
+          number(time->values[row], 5), in_beat >= 0 ? number(in_beat, 5) : "–",
+          pressure ? number(pressure->values[row] / mmhg, 2) : "–");
+    }
+  }
+  if (body.empty()) return "<p class=\"note\">No fibres were recruited or released.</p>\n";
+  return table("Instants at which the fibres of a point are recruited or released.",
+               "<tr><th scope=\"col\">Run</th><th scope=\"col\">Point</th><th scope=\"col\">Event</th>"
+               "<th scope=\"col\">Time, s</th><th scope=\"col\">In the last beat, s</th>"
+               "<th scope=\"col\">Pressure, mmHg</th></tr>",
+               body);
+}
+
+namespace {
+
+std::string event_sensitivity_table(const RunSummary& run) {
+  const Table& events = run.stored->result.event_sensitivities;
+  if (events.rows() == 0) return "";
+  std::string head;
+  for (const Column& column : events.columns())
+    head += fmt::format("<th scope=\"col\">{}{}</th>", escape(column.name),
+                        column.is_text() ? "" : fmt::format("<br>{}", escape(column.unit)));
+  std::string body;
+  for (std::size_t row = 0; row < events.rows(); ++row) {
+    body += "<tr>";
+    for (const Column& column : events.columns())
+      body += column.is_text() ? fmt::format("<td class=\"text\">{}</td>", escape(column.labels[row]))
+                               : fmt::format("<td>{}</td>", is_none(column.values[row])
+                                                                ? "–"
+                                                                : fmt::format("{:.6g}", column.values[row]));
+    body += "</tr>";
+  }
+  return table("How the instants of recruitment move with the scene's parameters.", "<tr>" + head + "</tr>",
+               body);
+}
+
+std::string record_list(const nlohmann::ordered_json& record) {
+  std::string items;
+  for (const auto& [key, value] : record.items()) {
+    if (key == "scene" || key == "scene_set" || key == "scene_toml") continue;
+    const std::string text =
+        value.is_string() ? value.get<std::string>()
+                          : value.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+    items += fmt::format("<dt>{}</dt><dd>{}</dd>", escape(key), text.empty() ? "–" : escape(text));
+  }
+  return fmt::format("<dl class=\"record\">{}</dl>\n", items);
+}
+
+}  // namespace
+
+std::string runs_section(const std::vector<RunSummary>& runs) {
+  std::string text;
+  for (std::size_t index = 0; index < runs.size(); ++index) {
+    const RunSummary& run = runs[index];
+    const auto toml = run.stored->record.find("scene_toml");
+    const std::string scene =
+        toml != run.stored->record.end() && toml->is_string() ? toml->get<std::string>() : std::string();
+    text += fmt::format("<details><summary><h3>{}{}</h3> <span>{} · {}</span></summary>\n", swatch(index),
+                        escape(run.label), escape(run.tier), escape(run.stored->folder.string()));
+    text += "<h4>Record</h4>\n" + record_list(run.stored->record);
+    text += event_sensitivity_table(run);
+    text += fmt::format("<h4>Scene</h4>\n<pre tabindex=\"0\">{}</pre>\n</details>\n", escape(scene));
+  }
+  return text;
+}
+
+}  // namespace tunica::report
