@@ -197,6 +197,21 @@ Dual<T, N> atan(const Dual<T, N>& x) {
   return detail::chain(x, T(atan(x.value)), T(1.0 / (1.0 + x.value * x.value)));
 }
 
+template <class T, int N>
+Dual<T, N> abs(const Dual<T, N>& x) {
+  return plain(x) < 0 ? -x : x;
+}
+/// Angle of the point (x, y); regular where x = 0, unlike atan(y / x).
+template <class T, int N>
+Dual<T, N> atan2(const Dual<T, N>& y, const Dual<T, N>& x) {
+  using std::atan2;
+  const T radius_squared = x.value * x.value + y.value * y.value;
+  Dual<T, N> angle(T(atan2(y.value, x.value)));
+  for (int k = 0; k < N; ++k)
+    angle.derivative[k] = (x.value * y.derivative[k] - y.value * x.derivative[k]) / radius_squared;
+  return angle;
+}
+
 /// The dual of one variable that carries d/dx of an expression of x.
 template <class S>
 Dual<S, 1> seed(const S& x) {

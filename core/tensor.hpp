@@ -82,6 +82,10 @@ S dot(const Vector<S>& a, const Vector<S>& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 template <class S>
+Vector<S> cross(const Vector<S>& a, const Vector<S>& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+template <class S>
 Tensor<S> outer(const Vector<S>& a, const Vector<S>& b) {
   Tensor<S> t;
   for (int i = 0; i < 3; ++i)

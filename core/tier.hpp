@@ -27,6 +27,14 @@ struct RunControl {
   std::function<bool()> interrupted = [] { return false; };
 };
 
+/// A computation that has been set up for a scene, which must outlive it.
+class TierRun {
+ public:
+  virtual ~TierRun() = default;
+  /// Computes, once. A solver that gives up returns what it has with record.failure set.
+  virtual Result execute(const RunControl& control) = 0;
+};
+
 /// One of the models that can answer a scene. A tier knows core only, never another tier.
 class Tier {
  public:
@@ -36,9 +44,9 @@ class Tier {
   virtual std::string refusal(const Scene& scene) const = 0;
   /// True when the tier's model is meant for the scene, so that `--tier auto` may choose it.
   virtual bool suits(const Scene& scene) const = 0;
-  /// Computes the scene. Throws InvalidInput for a scene that refusal() would refuse; a solver that
-  /// gives up returns what it has with record.failure set.
-  virtual Result run(const Scene& scene, const RunControl& control) const = 0;
+  /// Sets the computation up. Throws InvalidInput for a scene that the tier cannot compute, before
+  /// anything has been written.
+  virtual std::unique_ptr<TierRun> prepare(const Scene& scene) const = 0;
 };
 
 /// The tiers of this build, the cheapest first.

@@ -39,7 +39,8 @@ struct Result {
   observables::Table sensitivities;        ///< sensitivities.csv: time[s], then one column for every
                                            ///< observables::sensitivity_column; none when not asked for
   observables::Table event_sensitivities;  ///< event_sensitivities.csv: point, event and time[s] as in
-                                           ///< events, then d(time)/d(key) columns; likewise
+  observables::Table recruited_time;       ///< recruited_time.csv: time recruited in the last beat, and its
+                                      ///< sensitivities events, then d(time)/d(key) columns; likewise
   RunRecord record;
 };
 

@@ -29,7 +29,8 @@ constexpr TableFile table_files[] = {{"observables.csv", &Result::observables},
                                      {"profiles.csv", &Result::profiles},
                                      {"events.csv", &Result::events},
                                      {"sensitivities.csv", &Result::sensitivities},
-                                     {"event_sensitivities.csv", &Result::event_sensitivities}};
+                                     {"event_sensitivities.csv", &Result::event_sensitivities},
+                                     {"recruited_time.csv", &Result::recruited_time}};
 constexpr const char* record_file = "record.json";
 
 [[noreturn]] void fail(const fs::path& path, const char* what, int error) {

@@ -61,6 +61,12 @@ std::vector<double> layer_boundaries(const Ring<double>& ring) {
   return boundaries;
 }
 
+std::size_t layer_at(const std::vector<double>& boundaries, double xi) {
+  std::size_t layer = 0;
+  while (layer + 2 < boundaries.size() && boundaries[layer + 1] < xi) ++layer;
+  return layer;
+}
+
 double fiber_excess(const wall::CollagenFamily<double>& family, const Ring<double>& ring, double xi,
                     double displacement, double slope) {
   const Kinematics<double> k(frame::Radial::gradient(displacement, slope, ring.radius(xi)));

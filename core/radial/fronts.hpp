@@ -21,6 +21,9 @@ struct Front {
 /// xi of the inner surface, the boundaries between layers and the outer surface.
 std::vector<double> layer_boundaries(const Ring<double>& ring);
 
+/// The layer that a place lies in; a boundary belongs to the inner of its layers.
+std::size_t layer_at(const std::vector<double>& boundaries, double xi);
+
 /// I4bar - a^2 of a family at a place with displacement u and slope du/dR.
 double fiber_excess(const wall::CollagenFamily<double>& family, const Ring<double>& ring, double xi,
                     double displacement, double slope);

@@ -39,13 +39,6 @@ const std::array<std::array<double, terms>, terms>& cosines() {
   return table;
 }
 
-std::size_t layer_at(const std::vector<double>& boundaries, double xi) {
-  // A boundary belongs to the inner layer, as it does for the states.
-  std::size_t layer = 0;
-  while (layer + 2 < boundaries.size() && boundaries[layer + 1] < xi) ++layer;
-  return layer;
-}
-
 }  // namespace
 
 WallCurve::WallCurve(std::unique_ptr<const RingModel> model, std::vector<double> places, double tolerance)

@@ -74,23 +74,25 @@ P activation_squared(const P& activation_stretch, const P& angle) {
 }
 
 /// What the observables show of a family at a point.
+template <class S>
 struct FiberState {
-  double stretch;      ///< sqrt(I4bar)
-  double recruitment;  ///< H
-  double angle;        ///< rad, deformed fibre against the deformed circumference, 0 to pi/2
+  S stretch;      ///< sqrt(I4bar)
+  S recruitment;  ///< H
+  S angle;        ///< rad, deformed fibre F a0 against the deformed circumference F e_c, 0 to pi/2
 };
 
-/// The angle is that between F a0 and F e_circumferential.
-inline FiberState fiber_state(const CollagenFamily<double>& family,
-                              const Tensor<double>& displacement_gradient, const MaterialAxes& axes) {
-  const Kinematics<double> k(displacement_gradient);
-  const Vector<double> fiber = k.deformation_gradient * family.direction(axes);
-  const Vector<double> ring = k.deformation_gradient * axes.circumferential;
-  const Vector<double> normal{fiber[1] * ring[2] - fiber[2] * ring[1],
-                              fiber[2] * ring[0] - fiber[0] * ring[2],
-                              fiber[0] * ring[1] - fiber[1] * ring[0]};
-  return {std::sqrt(k.isochoric_factor * dot(fiber, fiber)), family.recruitment.share(family.excess(k, axes)),
-          std::atan2(std::sqrt(dot(normal, normal)), std::abs(dot(fiber, ring)))};
+template <class S>
+FiberState<S> fiber_state(const CollagenFamily<S>& family, const Tensor<S>& displacement_gradient,
+                          const MaterialAxes& axes) {
+  using std::abs;
+  using std::atan2;
+  using std::sqrt;
+  const Kinematics<S> k(displacement_gradient);
+  const Vector<S> fiber = k.deformation_gradient * family.direction(axes);
+  const Vector<S> ring = k.deformation_gradient * axes.circumferential;
+  const Vector<S> normal = cross(fiber, ring);
+  return {S(sqrt(k.isochoric_factor * dot(fiber, fiber))), family.recruitment.share(family.excess(k, axes)),
+          S(atan2(S(sqrt(dot(normal, normal))), S(abs(dot(fiber, ring)))))};
 }
 
 }  // namespace tunica::wall

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <atomic>
+#include <csignal>
+#include <filesystem>
+
+#include "app/commands/commands.hpp"
+#include "app/progress.hpp"
+#include "app/report/report.hpp"
+#include "app/tiers.hpp"
+#include "core/error.hpp"
+#include "core/observables/result.hpp"
+
+namespace tunica {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::atomic<bool> stop_asked = false;
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may only touch lock-free atomics");
+
+void ask_to_stop(int) {
+  stop_asked = true;
+}
+
+/// With --resume: true when the folder already holds this scene's whole result. A different scene
+/// there is refused, so that no result is mixed from two.
+bool is_finished(const fs::path& folder, const Scene& scene, const Tier& tier) {
+  if (!fs::exists(folder / "record.json")) return false;
+  const StoredResult stored = read_result(folder);
+  if (stored.record.value("scene_toml", "") != describe(scene) ||
+      stored.record.value("tier", "") != tier.name())
+    throw InvalidInput(fmt::format(
+        "{}: holds the result of another scene or tier; leave out --resume to replace it, or name another "
+        "folder with --out",
+        folder.string()));
+  return stored.record.value("converged", false);
+}
+
+}  // namespace
+
+int run_command(const RunArguments& arguments) {
+  const Scene scene = read_scene(arguments.scene, arguments.overrides);
+  const TierList tiers = available_tiers();
+  const Tier& tier = choose_tier(tiers, arguments.tier, scene);
+  const fs::path folder =
+      arguments.out.empty() ? fs::path("results") / scene.name() : fs::path(arguments.out);
+  if (!arguments.quiet)
+    for (const auto& remark : scene.remarks()) spdlog::warn(remark);
+  if (arguments.resume && is_finished(folder, scene, tier)) {
+    if (!arguments.quiet) fmt::print("{}: this run is complete\n", folder.string());
+    return done;
+  }
+
+  // A scene that the tier refuses must leave nothing behind, so the folder is made after this.
+  const std::unique_ptr<TierRun> run = tier.prepare(scene);
+  make_result_folder(folder);
+
+  std::signal(SIGINT, ask_to_stop);
+  std::signal(SIGTERM, ask_to_stop);
+  Result result;
+  {
+    ProgressDisplay display(arguments.quiet);
+    RunControl control;
+    control.report = [&](const Progress& progress) { display.show(progress); };
+    control.interrupted = [] { return stop_asked.load(); };
+    result = run->execute(control);
+  }
+  write_result(folder, scene, result);
+  if (arguments.report && result.observables.rows() > 0)
+    write_whole(folder / "report.html", make_report({read_result(folder)}));
+
+  const RunRecord& record = result.record;
+  if (!arguments.quiet)
+    fmt::print("{}: tier {}, {} rows, {} steps, {} Newton iterations, set-up {:.1f} ms, solver {:.1f} ms\n",
+               folder.string(), record.tier, result.observables.rows(), record.steps,
+               record.newton_iterations, 1e3 * record.setup_seconds, 1e3 * record.solve_seconds);
+  if (!record.failure.empty()) {
+    fmt::print(stderr, "tunica: {}: the solver gave up {}; results up to there are in {}\n", scene.name(),
+               record.failure, folder.string());
+    return gave_up;
+  }
+  if (record.interrupted) {
+    fmt::print(stderr, "tunica: {}: interrupted; results so far are in {}, go on with --resume\n",
+               scene.name(), folder.string());
+    return interrupted;
+  }
+  return done;
+}
+
+}  // namespace tunica

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <CLI/CLI.hpp>
+
+#include "app/commands/commands.hpp"
+#include "core/error.hpp"
+#include "core/observables/build_info.hpp"
+
+namespace {
+
+int complain(const std::exception& error, int code) {
+  fmt::print(stderr, "tunica: {}\n", error.what());
+  return code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using namespace tunica;
+  auto log = spdlog::stderr_color_mt("tunica");
+  log->set_pattern("tunica: %^%l%$: %v");
+  spdlog::set_default_logger(std::move(log));
+
+  CLI::App app{"Tunica: blood flow in elastic cerebral arteries"};
+  app.set_version_flag("--version", fmt::format("tunica {}", program_version()));
+  app.require_subcommand(1);
+
+  RunArguments run;
+  auto* run_app = app.add_subcommand("run", "Compute a scene");
+  run_app->add_option("scene", run.scene, "Scene file (TOML)")->required()->type_name("SCENE");
+  run_app
+      ->add_option("--tier", run.tier,
+                   "Model to compute with: auto (the cheapest that suits) or a tier's name")
+      ->type_name("TIER");
+  run_app->add_option("--set", run.overrides, "Override a key of the scene; may be repeated")
+      ->type_name("KEY=VALUE")
+      ->take_all()
+      ->allow_extra_args(false);
+  run_app->add_option("--out", run.out, "Folder for the results (default: results/NAME)")->type_name("DIR");
+  run_app->add_flag("--resume", run.resume, "Go on with a run that was interrupted or killed");
+  run_app->add_flag("--quiet", run.quiet, "Print errors only");
+  run_app->add_flag("!--no-report", run.report, "Leave report.html out");
+
+  SceneArguments scene;
+  auto* scene_app = app.add_subcommand("scene", "Show a scene with every default, unit and meaning");
+  scene_app->add_option("scene", scene.scene, "Scene file (TOML)")->type_name("SCENE");
+  scene_app->add_option("--set", scene.overrides, "Override a key of the scene; may be repeated")
+      ->type_name("KEY=VALUE")
+      ->take_all()
+      ->allow_extra_args(false);
+  scene_app->add_flag("--list", scene.list, "List the scenes that come with Tunica");
+  scene_app->add_flag("--parameters", scene.parameters, "Print the manual of every key (Markdown)");
+
+  ReportArguments report;
+  auto* report_app = app.add_subcommand("report", "Make one HTML file of one or more results");
+  report_app->add_option("folders", report.folders, "Folders of results")->required()->type_name("DIR...");
+  report_app->add_option("--out", report.out, "File to write (default: report.html beside the results)")
+      ->type_name("FILE");
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& success) {
+    return app.exit(success);
+  } catch (const CLI::ParseError& error) {
+    fmt::print(stderr, "tunica: {} (see tunica --help)\n", error.what());
+    return bad_input;
+  }
+
+  try {
+    if (*run_app) return run_command(run);
+    if (*scene_app) return scene_command(scene);
+    return report_command(report);
+  } catch (const InvalidInput& error) {
+    return complain(error, bad_input);
+  } catch (const OutputFailure& error) {
+    return complain(error, bad_input);
+  } catch (const std::exception& error) {
+    return complain(error, gave_up);
+  }
+}

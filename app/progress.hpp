@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <chrono>
+
+#include "core/tier.hpp"
+
+namespace tunica {
+
+/// Shows how a long run goes on: one line that is written over on a terminal, a plain line a beat in a
+/// log. A run that is over within half a second shows nothing.
+class ProgressDisplay {
+ public:
+  explicit ProgressDisplay(bool quiet);
+  ~ProgressDisplay();
+  ProgressDisplay(const ProgressDisplay&) = delete;
+  ProgressDisplay& operator=(const ProgressDisplay&) = delete;
+
+  void show(const Progress& progress);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  bool quiet_, terminal_;
+  bool shown_ = false;
+  int last_beat_ = 0;
+  Clock::time_point start_ = Clock::now(), last_ = start_;
+};
+
+}  // namespace tunica

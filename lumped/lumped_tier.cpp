@@ -1,0 +1,352 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lumped/lumped_tier.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "lumped/integrator.hpp"
+#include "lumped/limit_cycle.hpp"
+#include "lumped/network.hpp"
+#include "lumped/observer.hpp"
+
+namespace tunica::lumped {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// Local tolerance of the integrator for a scene's tolerance. Local errors add up over some hundred
+/// steps, hence the factor; looser than the upper end the 0D tier would save nothing that can be felt.
+double local_tolerance(double scene_tolerance) {
+  return std::clamp(0.01 * scene_tolerance, 1e-11, 1e-8);
+}
+
+/// A moment at which the run stops to look.
+struct Stop {
+  double time;
+  bool is_row;      ///< a row of observables.csv
+  bool is_profile;  ///< a profile through the wall
+};
+
+std::vector<Stop> stops(const Scene& scene, double period) {
+  const double interval = scene.number("output.interval");
+  const auto beats = static_cast<double>(scene.integer("time.beats"));
+  const double end = beats * period;
+  std::vector<Stop> all;
+  const auto rows = static_cast<long>(std::floor(end / interval * (1 + 1e-12)));
+  for (long k = 0; k <= rows; ++k)
+    all.push_back({std::min(static_cast<double>(k) * interval, end), true, false});
+  if (end - all.back().time > 1e-9 * interval) all.push_back({end, true, false});
+  for (const double within : scene.numbers("output.profile_times"))
+    all.push_back({(beats - 1) * period + within, false, true});
+  std::stable_sort(all.begin(), all.end(), [](const Stop& a, const Stop& b) { return a.time < b.time; });
+  return all;
+}
+
+/// When fibres at a place were recruited and released during the last beat, in order.
+class RecruitedTime {
+ public:
+  RecruitedTime(double from, bool recruited, std::size_t parameters)
+      : since_(from), on_(recruited), derivative_(parameters) {}
+
+  void change(double time, bool recruited, const std::vector<double>& time_derivatives) {
+    if (on_) total_ += time - since_;
+    for (std::size_t k = 0; k < derivative_.size(); ++k)
+      derivative_[k] += (recruited ? -1 : 1) * time_derivatives[k];
+    since_ = time;
+    on_ = recruited;
+  }
+  double total(double end) const { return total_ + (on_ ? end - since_ : 0.0); }
+  const std::vector<double>& derivatives() const { return derivative_; }
+
+ private:
+  double since_;
+  bool on_;
+  double total_ = 0;
+  std::vector<double> derivative_;
+};
+
+/// One run of the tier: the network, its integrator and the tables that it fills.
+class LumpedRun final : public TierRun {
+ public:
+  explicit LumpedRun(const Scene& scene)
+      : scene_(scene),
+        began_(Clock::now()),
+        parameters_(scene.texts("sensitivity.parameters")),
+        network_(scene, parameters_),
+        observer_(network_, parameters_),
+        stops_(stops(scene, network_.inlet().period)),
+        tolerance_(local_tolerance(scene.number("accuracy.tolerance"))) {
+    check_profile_times();
+    prepare_tables();
+    prepare_curve();
+    result_.record.setup_seconds = seconds_since(began_);
+  }
+
+  Result execute(const RunControl& control) override {
+    const auto solving = Clock::now();
+    try {
+      integrate(control);
+      result_.record.converged = !result_.record.interrupted;
+    } catch (const SolverFailure& failure) {
+      const double period = network_.inlet().period;
+      result_.record.failure = fmt::format("at t = {:.6g} s (beat {}): {}", time_,
+                                           1 + static_cast<int>(time_ / period), failure.what());
+    }
+    result_.record.solve_seconds = seconds_since(solving);
+    return std::move(result_);
+  }
+
+ private:
+  void check_profile_times() const {
+    for (const double within : scene_.numbers("output.profile_times"))
+      if (within >= network_.inlet().period)
+        throw InvalidInput(
+            fmt::format("output.profile_times: {} s is not within a beat of {} s; give times below that",
+                        within, network_.inlet().period));
+  }
+
+  void prepare_tables() {
+    result_.observables = observables::standard_table();
+    result_.profiles = observer_.profile_table();
+    result_.sensitivities = observer_.sensitivity_table();
+    auto& events = result_.events;
+    events.add("time", "s");
+    events.add("point", "");
+    events.add("family", "1");
+    events.add("change", "");
+    if (!parameters_.empty()) {
+      auto& table = result_.event_sensitivities;
+      table.add("time", "s");
+      table.add("point", "");
+      table.add("family", "1");
+      table.add("change", "");
+      for (std::size_t k = 0; k < parameters_.size(); ++k)
+        table.add(observer_.derivative_name("time", k), observer_.derivative_unit("s", k));
+    }
+    auto& record = result_.record;
+    record.tier = "lumped";
+    record.resolution = {{"compartments", scene_.integer("lumped.compartments")},
+                         {"local_relative_tolerance", tolerance_},
+                         {"wall_points", observables::wall_points}};
+    record.unknowns = network_.unknowns();
+    record.remarks = scene_.remarks();
+    record.remarks.emplace_back(
+        "0D tier: the clamped ends, the wall's inertia and entrance flow are not modelled");
+    if (!scene_.flag("lumped.inertance"))
+      record.remarks.emplace_back(
+          "0D tier: the blood's inertia is not modelled (lumped.inertance = true adds it)");
+    if (scene_.text("geometry.kind") == "torus")
+      record.remarks.emplace_back(
+          "0D tier: the bend is not modelled, the torus is computed as a straight artery of its length");
+  }
+
+  /// Tabulates the stretches that the run will see, estimated from the outlet's resistance, so that the
+  /// integration only evaluates; what lies outside is added when it is met.
+  void prepare_curve() {
+    const auto& curve = network_.curve();
+    const double inlet_scale = std::abs(network_.inlet_scale());
+    double highest = 0;
+    constexpr int samples = 64;
+    for (int k = 0; k < samples; ++k)
+      highest = std::max(highest, network_.inlet().shape->at(network_.inlet().period * k / samples));
+    const double resistance = scene_.number("outlet.resistance");
+    const double pressure = network_.inlet().is_pressure
+                                ? inlet_scale * highest
+                                : scene_.number("outlet.pressure") + resistance * inlet_scale * highest;
+    try {
+      curve.prepare(1.0, curve.stretch_at(0.97 * pressure));
+    } catch (const SolverFailure&) {
+      // The run itself finds out whether it gets there, and how far.
+    }
+  }
+
+  /// Expected size of dy/dtheta over the unknowns' scales: 1/|theta|, or for a parameter that is 0 the
+  /// forcing that it exerts within a second.
+  double sensitivity_size(int k) const {
+    const double value = std::abs(scene_.number(parameters_[k]));
+    if (value > 0) return 1 / value;
+    std::vector<double> y = network_.rest(), none(y.size(), 0.0), rates(y.size());
+    for (double& entry : y) entry *= 2;
+    network_.rate_derivative(0.5 * network_.inlet().period, y.data(), none.data(), k, rates.data());
+    const auto scales = network_.scales();
+    double size = 0;
+    for (std::size_t i = 0; i < rates.size(); ++i) size = std::max(size, std::abs(rates[i]) / scales[i]);
+    return size > 0 ? size : 1.0;
+  }
+
+  System system() const {
+    System s;
+    s.unknowns = network_.unknowns();
+    s.bandwidth = network_.bandwidth();
+    s.scales = network_.scales();
+    s.rate = [this](double t, const double* y, double* rate) { network_.rate(t, y, rate); };
+    s.rate_derivative = [this](double t, const double* y, const double* dy, int k, double* result) {
+      network_.rate_derivative(t, y, dy, k, result);
+    };
+    const auto& thresholds = network_.curve().thresholds();
+    s.events = static_cast<int>(thresholds.size());
+    s.event_values = [this, &thresholds](const double* y, double* values) {
+      const double stretch = network_.mid_stretch(y);
+      for (std::size_t k = 0; k < thresholds.size(); ++k) values[k] = stretch - thresholds[k].stretch;
+    };
+    return s;
+  }
+
+  void integrate(const RunControl& control) {
+    std::vector<Sensitivity> carried;
+    for (int k = 0; k < network_.parameters(); ++k) carried.push_back({k, sensitivity_size(k)});
+    const System s = system();
+    std::vector<double> state = network_.rest();
+    std::vector<std::vector<double>> derivatives;
+    for (int k = 0; k < network_.parameters(); ++k) derivatives.push_back(network_.rest_derivative(k));
+    IntegratorStatistics statistics;
+    if (scene_.text("time.start") == "periodic") {
+      LimitCycle cycle = find_limit_cycle(s, state, network_.inlet().period, carried, tolerance_);
+      state = std::move(cycle.state);
+      derivatives = std::move(cycle.derivatives);
+      statistics = cycle.statistics;
+    }
+
+    Integrator integrator(s, carried, tolerance_);
+    const double end = stops_.back().time;
+    integrator.start(0, end, state, derivatives);
+    const double last_beat = end - network_.inlet().period;
+    for (const Stop& stop : stops_) {
+      while (integrator.time() < stop.time) {
+        const auto crossings = integrator.advance(stop.time);
+        time_ = integrator.time();
+        if (recruited_.empty() && time_ >= last_beat) begin_last_beat(last_beat, integrator, crossings);
+        for (const Crossing& crossing : crossings) record_event(integrator, crossing, last_beat);
+      }
+      record_stop(integrator, stop);
+      result_.record.steps = statistics.steps + integrator.statistics().steps;
+      result_.record.newton_iterations =
+          statistics.newton_iterations + integrator.statistics().newton_iterations;
+      result_.record.rejected_steps = statistics.rejected_steps + integrator.statistics().rejected_steps;
+      control.report({1 + static_cast<int>(stop.time / network_.inlet().period), stop.time, end,
+                      result_.record.steps, result_.record.newton_iterations});
+      if (control.interrupted()) {
+        result_.record.interrupted = true;
+        return;
+      }
+    }
+    finish_last_beat(end);
+  }
+
+  void record_stop(const Integrator& integrator, const Stop& stop) {
+    const double* y = integrator.state();
+    if (stop.is_row) {
+      observables::append(result_.observables, observer_.sample(stop.time, y));
+      if (!parameters_.empty())
+        observer_.append_sensitivities(stop.time, y, sensitivities(integrator), result_.sensitivities);
+    }
+    if (stop.is_profile) observer_.append_profile(stop.time, y, result_.profiles);
+  }
+
+  std::vector<const double*> sensitivities(const Integrator& integrator) const {
+    std::vector<const double*> all;
+    for (int k = 0; k < network_.parameters(); ++k) all.push_back(integrator.sensitivity(k));
+    return all;
+  }
+
+  /// dt*/dtheta of a crossing s(t*) = s_threshold: -(ds/dtheta - ds_threshold/dtheta) / (ds/dt).
+  std::vector<double> crossing_derivatives(const Integrator& integrator,
+                                           const radial::Threshold& threshold) const {
+    const double* y = integrator.state();
+    std::vector<double> rate(network_.unknowns()), derivatives;
+    network_.rate(integrator.time(), y, rate.data());
+    const double speed =
+        network_.outside_derivative(integrator.time(), y, rate.data(), -1).lumen_stretch.derivative[0];
+    for (int k = 0; k < network_.parameters(); ++k) {
+      const double moved = network_.outside_derivative(integrator.time(), y, integrator.sensitivity(k), k)
+                               .lumen_stretch.derivative[0];
+      derivatives.push_back(-(moved - threshold.derivatives[k]) / speed);
+    }
+    return derivatives;
+  }
+
+  void record_event(const Integrator& integrator, const Crossing& crossing, double last_beat) {
+    const auto& threshold = network_.curve().thresholds()[crossing.index];
+    const auto derivatives = crossing_derivatives(integrator, threshold);
+    const std::string point = fmt::format("P{}", threshold.place + 1);
+    const auto put = [&](observables::Table& table) {
+      table[0].values.push_back(integrator.time());
+      table[1].labels.push_back(point);
+      table[2].values.push_back(static_cast<double>(threshold.family + 1));
+      table[3].labels.emplace_back(crossing.rising ? "recruited" : "released");
+    };
+    put(result_.events);
+    if (!parameters_.empty()) {
+      put(result_.event_sensitivities);
+      for (std::size_t k = 0; k < derivatives.size(); ++k)
+        result_.event_sensitivities[4 + k].values.push_back(derivatives[k]);
+    }
+    if (integrator.time() >= last_beat && !recruited_.empty())
+      recruited_[crossing.index].change(integrator.time(), crossing.rising, derivatives);
+  }
+
+  void begin_last_beat(double start, const Integrator& integrator, const std::vector<Crossing>& crossings) {
+    const auto& thresholds = network_.curve().thresholds();
+    const double stretch = network_.mid_stretch(integrator.state());
+    for (std::size_t k = 0; k < thresholds.size(); ++k) {
+      bool on = stretch > thresholds[k].stretch;
+      // A crossing right now is counted as an event of the beat, so the beat begins before it.
+      for (const Crossing& crossing : crossings)
+        if (crossing.index == static_cast<int>(k)) on = !crossing.rising;
+      recruited_.emplace_back(start, on, parameters_.size());
+    }
+  }
+
+  void finish_last_beat(double end) {
+    if (recruited_.empty()) return;
+    auto& table = result_.recruited_time;
+    table.add("point", "");
+    table.add("family", "1");
+    table.add("recruited_time", "s");
+    for (std::size_t k = 0; k < parameters_.size(); ++k)
+      table.add(observer_.derivative_name("recruited_time", k), observer_.derivative_unit("s", k));
+    for (std::size_t i = 0; i < recruited_.size(); ++i) {
+      const auto& threshold = network_.curve().thresholds()[i];
+      table[0].labels.push_back(fmt::format("P{}", threshold.place + 1));
+      table[1].values.push_back(static_cast<double>(threshold.family + 1));
+      table[2].values.push_back(recruited_[i].total(end));
+      for (std::size_t k = 0; k < parameters_.size(); ++k)
+        table[3 + k].values.push_back(recruited_[i].derivatives()[k]);
+    }
+  }
+
+  const Scene& scene_;
+  Clock::time_point began_;
+  std::vector<std::string> parameters_;
+  Network network_;
+  Observer observer_;
+  std::vector<Stop> stops_;
+  double tolerance_;
+  double time_ = 0;
+  std::vector<RecruitedTime> recruited_;
+  Result result_;
+};
+
+}  // namespace
+
+std::string LumpedTier::refusal(const Scene&) const {
+  return {};
+}
+
+bool LumpedTier::suits(const Scene& scene) const {
+  return scene.text("geometry.kind") == "cylinder";
+}
+
+std::unique_ptr<TierRun> LumpedTier::prepare(const Scene& scene) const {
+  return std::make_unique<LumpedRun>(scene);
+}
+
+}  // namespace tunica::lumped

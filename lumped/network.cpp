@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lumped/network.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/error.hpp"
+#include "core/observables/result.hpp"
+#include "core/radial/from_scene.hpp"
+
+namespace tunica::lumped {
+
+using D = Dual<double, 1>;
+using std::numbers::pi;
+
+namespace {
+
+/// Reference radius and flow by which the carotid's waveform is scaled to an artery (255 ml/min at
+/// 0.195 cm; Baek et al. 2010).
+constexpr double carotid_flow = 255.0 / 60.0;
+constexpr double carotid_radius = 0.195;
+
+/// xi of P1..P4.
+std::vector<double> wall_places() {
+  std::vector<double> places;
+  for (int k = 0; k < observables::wall_points; ++k)
+    places.push_back(static_cast<double>(k) / (observables::wall_points - 1));
+  return places;
+}
+
+}  // namespace
+
+template <class P>
+NetworkNumbers<P> Network::numbers(const SeededScene<P>& scene) const {
+  NetworkNumbers<P> n{scene.number("geometry.radius"),
+                      scene.number("geometry.length"),
+                      scene.number("blood.viscosity"),
+                      inertance_ ? scene.number("blood.density") : P(0.0),
+                      P(1.0),
+                      scene.number("outlet.resistance"),
+                      scene.number("outlet.pressure"),
+                      P(0.0),
+                      P(0.0)};
+  if (windkessel_) {
+    n.proximal_resistance = scene.number("outlet.proximal_resistance");
+    n.compliance = scene.number("outlet.compliance");
+  }
+  if (inlet_.scale_key == "inlet.flow" && !scene.scene().was_set("inlet.flow")) {
+    const P ratio = n.radius / carotid_radius;
+    n.inlet_scale = carotid_flow * ratio * ratio;
+  } else if (!inlet_.scale_key.empty()) {
+    n.inlet_scale = scene.number(inlet_.scale_key);
+  }
+  return n;
+}
+
+Network::Network(const Scene& scene, const std::vector<std::string>& parameters)
+    : compartments_(static_cast<int>(scene.integer("lumped.compartments"))),
+      inertance_(scene.flag("lumped.inertance")),
+      windkessel_(scene.text("outlet.kind") == "rcr"),
+      inlet_(inlet_from_scene(scene)) {
+  numbers_ = numbers(SeededScene<double>(scene));
+  for (const std::string& parameter : parameters) {
+    const SeededScene<D> seeded(scene, parameter);
+    seeded_.push_back(numbers(seeded));
+    radial::ring_from_scene(seeded);
+    if (!seeded.seed_was_read())
+      throw InvalidInput(fmt::format(
+          "sensitivity.parameters: the 0D model of this scene does not depend on {}; leave it out",
+          parameter));
+  }
+  unknowns_ = compartments_ + (inertance_ ? compartments_ : 0) + (inertance_ && inlet_.is_pressure ? 1 : 0) +
+              (windkessel_ ? 1 : 0);
+
+  const auto& n = numbers_;
+  const bool resistive = n.viscosity > 0;
+  const double outlet = windkessel_ ? n.proximal_resistance : n.resistance;
+  if (!inertance_ && !resistive && (outlet == 0 || compartments_ > 1 || inlet_.is_pressure))
+    throw InvalidInput(
+        "blood.viscosity = 0 leaves no resistance between pressures that differ; set it above 0 or "
+        "lumped.inertance = true");
+  if (windkessel_ && n.resistance == 0)
+    throw InvalidInput(
+        "outlet.resistance = 0 with outlet.kind = \"rcr\" shorts its compliance; set it above 0");
+
+  curve_ = std::make_unique<radial::WallCurve>(radial::ring_model(scene, parameters), wall_places());
+}
+
+int Network::flow_index(int link) const {
+  const int with_inlet = inlet_.is_pressure ? 1 : 0;
+  return link == 0 ? 0 : with_inlet + 2 * link - 1;
+}
+
+int Network::area_index(int compartment) const {
+  if (!inertance_) return compartment;
+  return (inlet_.is_pressure ? 1 : 0) + 2 * compartment;
+}
+
+std::vector<double> Network::rest() const {
+  std::vector<double> y(unknowns_, 0.0);
+  for (int i = 0; i < compartments_; ++i) y[area_index(i)] = 1;
+  if (windkessel_) y.back() = numbers_.outlet_pressure;
+  return y;
+}
+
+std::vector<double> Network::rest_derivative(int k) const {
+  std::vector<double> dy(unknowns_, 0.0);
+  if (windkessel_) dy.back() = seeded_[k].outlet_pressure.derivative[0];
+  return dy;
+}
+
+std::vector<double> Network::scales() const {
+  const auto& n = numbers_;
+  // A pressure of the size that the artery sees, and the flow that goes with it.
+  const double tissue_pressure = std::abs(curve_->pressure(1.1));
+  const double outlet = n.resistance + n.proximal_resistance;
+  const double flow = inlet_.is_pressure ? std::max(1.0, std::abs(n.inlet_scale)) / std::max(outlet, 1.0)
+                                         : std::max(std::abs(n.inlet_scale), 1e-12);
+  std::vector<double> scale(unknowns_, std::max(flow, 1e-12));
+  for (int i = 0; i < compartments_; ++i) scale[area_index(i)] = 1;
+  if (windkessel_) scale.back() = std::max(tissue_pressure, 1.0);
+  return scale;
+}
+
+template <class P>
+P Network::curve_pressure(const P& stretch, int k) const {
+  if constexpr (std::same_as<P, double>) {
+    return curve_->pressure(stretch);
+  } else {
+    const double s = plain(stretch);
+    double derivative = curve_->pressure_slope(s) * stretch.derivative[0];
+    if (k >= 0) derivative += curve_->pressure_derivative(s, k);
+    return P(curve_->pressure(s), {derivative});
+  }
+}
+
+/// Everything between the unknowns and their rates.
+template <class P>
+struct Network::Flows {
+  std::vector<P> pressure, resistance, inertance;  ///< of each compartment
+  std::vector<P> flow;                             ///< 0: inlet, i: out of compartment i, N: outlet
+  P inlet_pressure, outlet_pressure;
+};
+
+template <class P>
+Network::Flows<P> Network::flows(const NetworkNumbers<P>& n, double time, const P* y, int k) const {
+  using std::sqrt;
+  const int last = compartments_;
+  Flows<P> f;
+  f.pressure.resize(last);
+  f.resistance.resize(last);
+  f.inertance.resize(last);
+  f.flow.resize(last + 1);
+  const P length = n.length / static_cast<double>(compartments_);
+  for (int i = 0; i < last; ++i) {
+    const P area_ratio = y[area_index(i)];
+    if (!(plain(area_ratio) > 0)) throw SolverFailure("the lumen has closed");
+    f.pressure[i] = curve_pressure(P(sqrt(area_ratio)), k);
+    const P square = n.radius * n.radius * area_ratio;
+    f.resistance[i] = 8.0 * n.viscosity * length / (pi * square * square);
+    if (inertance_) f.inertance[i] = (4.0 / 3.0) * n.density * length / (pi * square);
+  }
+  const P inlet = n.inlet_scale * inlet_.shape_at(time);
+  f.inlet_pressure = inlet;
+  if (!inlet_.is_pressure)
+    f.flow[0] = inlet;
+  else
+    f.flow[0] = inertance_ ? y[flow_index(0)] : (inlet - f.pressure[0]) / (0.5 * f.resistance[0]);
+  for (int i = 1; i < last; ++i)
+    f.flow[i] = inertance_
+                    ? y[flow_index(i)]
+                    : (f.pressure[i - 1] - f.pressure[i]) / (0.5 * (f.resistance[i - 1] + f.resistance[i]));
+  const P beyond = windkessel_ ? y[unknowns_ - 1] : n.outlet_pressure;
+  const P outlet_resistance = windkessel_ ? n.proximal_resistance : n.resistance;
+  f.flow[last] = inertance_
+                     ? y[flow_index(last)]
+                     : (f.pressure[last - 1] - beyond) / (0.5 * f.resistance[last - 1] + outlet_resistance);
+  f.outlet_pressure = beyond + outlet_resistance * f.flow[last];
+  return f;
+}
+
+template <class P>
+void Network::rate_of(const NetworkNumbers<P>& n, double time, const P* y, int k, P* result) const {
+  const Flows<P> f = flows(n, time, y, k);
+  const int last = compartments_;
+  const P volume = pi * n.radius * n.radius * n.length / static_cast<double>(compartments_);
+  for (int i = 0; i < last; ++i) result[area_index(i)] = (f.flow[i] - f.flow[i + 1]) / volume;
+  if (inertance_) {
+    if (inlet_.is_pressure)
+      result[flow_index(0)] =
+          (f.inlet_pressure - f.pressure[0] - 0.5 * f.resistance[0] * f.flow[0]) / (0.5 * f.inertance[0]);
+    for (int i = 1; i < last; ++i)
+      result[flow_index(i)] =
+          (f.pressure[i - 1] - f.pressure[i] - 0.5 * (f.resistance[i - 1] + f.resistance[i]) * f.flow[i]) /
+          (0.5 * (f.inertance[i - 1] + f.inertance[i]));
+    result[flow_index(last)] =
+        (f.pressure[last - 1] - f.outlet_pressure - 0.5 * f.resistance[last - 1] * f.flow[last]) /
+        (0.5 * f.inertance[last - 1]);
+  }
+  if (windkessel_)
+    result[unknowns_ - 1] =
+        (f.flow[last] - (y[unknowns_ - 1] - n.outlet_pressure) / n.resistance) / n.compliance;
+}
+
+template <class P>
+P Network::mid_stretch_of(const P* y) const {
+  using std::sqrt;
+  // An even number of compartments has its middle between two of them.
+  const int lower = (compartments_ - 1) / 2, upper = compartments_ / 2;
+  return sqrt(0.5 * (y[area_index(lower)] + y[area_index(upper)]));
+}
+
+template <class P>
+Outside<P> Network::outside_of(const NetworkNumbers<P>& n, double time, const P* y, int k) const {
+  const Flows<P> f = flows(n, time, y, k);
+  const P stretch = mid_stretch_of(y);
+  return {f.flow.front(), f.flow.back(), f.outlet_pressure, stretch, curve_pressure(stretch, k)};
+}
+
+namespace {
+
+std::vector<D> along(const double* y, const double* dy, int size) {
+  std::vector<D> dual(size);
+  for (int i = 0; i < size; ++i) dual[i] = D(y[i], {dy[i]});
+  return dual;
+}
+
+template <class To, class From>
+NetworkNumbers<To> lift(const NetworkNumbers<From>& n) {
+  return {n.radius,     n.length,          n.viscosity,           n.density,   n.inlet_scale,
+          n.resistance, n.outlet_pressure, n.proximal_resistance, n.compliance};
+}
+
+}  // namespace
+
+void Network::rate(double time, const double* y, double* dydt) const {
+  rate_of(numbers_, time, y, -1, dydt);
+}
+
+void Network::rate_derivative(double time, const double* y, const double* dy, int k, double* result) const {
+  const std::vector<D> dual = along(y, dy, unknowns_);
+  std::vector<D> rates(unknowns_);
+  rate_of(k >= 0 ? seeded_[k] : lift<D>(numbers_), time, dual.data(), k, rates.data());
+  for (int i = 0; i < unknowns_; ++i) result[i] = rates[i].derivative[0];
+}
+
+Outside<double> Network::outside(double time, const double* y) const {
+  return outside_of(numbers_, time, y, -1);
+}
+
+Outside<D> Network::outside_derivative(double time, const double* y, const double* dy, int k) const {
+  const std::vector<D> dual = along(y, dy, unknowns_);
+  return outside_of(k >= 0 ? seeded_[k] : lift<D>(numbers_), time, dual.data(), k);
+}
+
+double Network::mid_stretch(const double* y) const {
+  return mid_stretch_of(y);
+}
+
+}  // namespace tunica::lumped

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/radial/wall_curve.hpp"
+#include "core/scene/seeded.hpp"
+#include "lumped/waveform.hpp"
+
+namespace tunica::lumped {
+
+/// The numbers of the network that sensitivities may be asked for. P is double or a dual.
+template <class P>
+struct NetworkNumbers {
+  P radius, length, viscosity, density;
+  P inlet_scale;
+  P resistance, outlet_pressure, proximal_resistance, compliance;
+};
+
+/// What can be seen from outside of the network at one moment.
+template <class P>
+struct Outside {
+  P inflow, outflow;  ///< cm3/s
+  P outlet_pressure;  ///< dyn/cm2
+  P lumen_stretch;    ///< of the section at mid-length
+  P pressure;         ///< there, dyn/cm2
+};
+
+/// The artery as N compartments of nonlinear compliance in series, each the thick ring of the scene,
+/// joined by the Poiseuille resistance of the deformed lumen and, as an option, by the inertance of
+/// its blood. Unknowns, in this order along the artery:
+///   a_i  lumen area of compartment i over its unloaded area (the squared lumen stretch),
+///   Q_i  flow from compartment i to the next, with inertance only,
+///   p_c  pressure in the compliance of an rcr outlet.
+/// Balance of mass (l = L/N):       pi R0^2 l da_i/dt = Q_(i-1) - Q_i
+/// Balance of momentum:             I dQ_i/dt = p_i - p_(i+1) - R_p Q_i, or p_i - p_(i+1) = R_p Q_i
+/// with R_p = 8 mu l/(pi r^4) and I = 4/3 rho l/(pi r^2) (parabolic profile), half of each neighbour's.
+/// Outlet: p_out = p_v + R Q_N, or p_out = p_c + R_prox Q_N, C dp_c/dt = Q_N - (p_c - p_v)/R. Both implicit.
+class Network {
+ public:
+  /// `parameters`: scene keys that derivatives are wanted for. Throws InvalidInput for one that this
+  /// model does not depend on, and for a network that has no resistance where one is needed.
+  Network(const Scene& scene, const std::vector<std::string>& parameters);
+
+  int unknowns() const { return unknowns_; }
+  int parameters() const { return static_cast<int>(seeded_.size()); }
+  /// Half-width of the band of the Jacobian.
+  int bandwidth() const { return std::min(2, unknowns_ - 1); }
+
+  /// State at rest: no load, no flow.
+  std::vector<double> rest() const;
+  /// d(rest)/d(parameter k).
+  std::vector<double> rest_derivative(int k) const;
+  /// Magnitude that each unknown is measured by in error control.
+  std::vector<double> scales() const;
+
+  /// dy/dt. Throws SolverFailure when the wall has no equilibrium at y.
+  void rate(double time, const double* y, double* dydt) const;
+  /// Directional derivative of the rate along dy, plus d(rate)/d(parameter k) when k >= 0.
+  void rate_derivative(double time, const double* y, const double* dy, int k, double* result) const;
+
+  Outside<double> outside(double time, const double* y) const;
+  /// Derivatives along dy and, when k >= 0, parameter k.
+  Outside<Dual<double, 1>> outside_derivative(double time, const double* y, const double* dy, int k) const;
+  /// Lumen stretch of the section at mid-length.
+  double mid_stretch(const double* y) const;
+
+  const Inlet& inlet() const { return inlet_; }
+  /// Factor on the inlet's shape: mean flow (cm3/s) or pressure (dyn/cm2).
+  double inlet_scale() const { return numbers_.inlet_scale; }
+  const radial::WallCurve& curve() const { return *curve_; }
+  /// The ring with parameter k seeded.
+  const radial::Ring<Dual<double, 1>>& seeded_ring(int k) const { return curve_->model().seeded()[k]; }
+
+ private:
+  template <class P>
+  NetworkNumbers<P> numbers(const SeededScene<P>& scene) const;
+  template <class P>
+  P curve_pressure(const P& stretch, int k) const;
+  template <class P>
+  struct Flows;
+  template <class P>
+  Flows<P> flows(const NetworkNumbers<P>& n, double time, const P* y, int k) const;
+  template <class P>
+  void rate_of(const NetworkNumbers<P>& n, double time, const P* y, int k, P* result) const;
+  template <class P>
+  Outside<P> outside_of(const NetworkNumbers<P>& n, double time, const P* y, int k) const;
+  template <class P>
+  P mid_stretch_of(const P* y) const;
+
+  int area_index(int compartment) const;
+  /// Flow out of compartment i (0: the inlet's, with a pressure there); with inertance only.
+  int flow_index(int link) const;
+
+  int compartments_;
+  bool inertance_, windkessel_;
+  int unknowns_;
+  Inlet inlet_;
+  NetworkNumbers<double> numbers_;
+  std::vector<NetworkNumbers<Dual<double, 1>>> seeded_;
+  std::unique_ptr<radial::WallCurve> curve_;
+};
+
+}  // namespace tunica::lumped

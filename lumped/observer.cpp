@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lumped/observer.hpp"
+
+#include <fmt/format.h>
+
+#include <numbers>
+
+#include "core/frame.hpp"
+#include "core/radial/fronts.hpp"
+
+namespace tunica::lumped {
+
+using D = Dual<double, 1>;
+using frame::Radial;
+
+namespace {
+
+constexpr double degrees = 180 / std::numbers::pi;
+/// Points of a profile through the wall, both surfaces included.
+constexpr int profile_points = 61;
+
+struct Quantity {
+  const char* name;
+  const char* unit;
+};
+/// Quantities that have sensitivities, in the order of Observer::append_sensitivities.
+constexpr Quantity section_quantities[] = {{"pressure", "dyn/cm2"},
+                                           {"outlet_pressure", "dyn/cm2"},
+                                           {"transmural_pressure", "dyn/cm2"},
+                                           {"inflow", "cm3/s"},
+                                           {"outflow", "cm3/s"}};
+constexpr Quantity point_quantities[] = {{"radial_displacement", "cm"}, {"fiber_angle", "deg"}};
+
+}  // namespace
+
+Observer::Observer(const Network& network, const std::vector<std::string>& parameters)
+    : network_(network), parameters_(parameters) {
+  const auto boundaries = radial::layer_boundaries(network.curve().model().ring());
+  for (const double xi : network.curve().places()) place_layers_.push_back(radial::layer_at(boundaries, xi));
+}
+
+observables::Sample Observer::sample(double time, const double* y) const {
+  const auto& curve = network_.curve();
+  const auto& ring = curve.model().ring();
+  const Outside<double> outside = network_.outside(time, y);
+  observables::Sample sample;
+  sample.time = time;
+  sample.inflow = outside.inflow;
+  sample.outflow = outside.outflow;
+  sample.pressure = outside.pressure;
+  sample.outlet_pressure = outside.outlet_pressure;
+  const double s = outside.lumen_stretch;
+  sample.transmural_pressure =
+      outside.pressure - ring.external_pressure(curve.displacement(s, observables::wall_points - 1));
+  for (int p = 0; p < observables::wall_points; ++p) {
+    observables::WallPoint& point = sample.wall[p];
+    point.radial_displacement = curve.displacement(s, p);
+    const auto gradient =
+        Radial::gradient(point.radial_displacement, curve.radial_slope(s, p), ring.radius(curve.places()[p]));
+    const auto& law = ring.layers[place_layers_[p]].law;
+    point.von_mises = von_mises_stress(cauchy_stress(wall::piola(law, gradient, Radial::axes()), gradient));
+    const auto& families = wall::families(law);
+    if (families.empty()) continue;
+    const auto fiber = wall::fiber_state(families.front(), gradient, Radial::axes());
+    point.fiber_angle = fiber.angle * degrees;
+    point.fiber_stretch = fiber.stretch;
+    point.recruitment = fiber.recruitment;
+  }
+  return sample;
+}
+
+std::string Observer::derivative_name(std::string_view quantity, std::size_t k) const {
+  return fmt::format("d({})/d({})", quantity, parameters_[k]);
+}
+
+std::string Observer::derivative_unit(std::string_view unit, std::size_t k) const {
+  const std::string& below = scene::find_parameter(parameters_[k])->unit;
+  return below == "1" ? std::string(unit) : fmt::format("({})/({})", unit, below);
+}
+
+observables::Table Observer::sensitivity_table() const {
+  observables::Table table;
+  if (parameters_.empty()) return table;
+  table.add("time", "s");
+  for (std::size_t k = 0; k < parameters_.size(); ++k) {
+    for (const Quantity& quantity : section_quantities)
+      table.add(derivative_name(quantity.name, k), derivative_unit(quantity.unit, k));
+    for (const Quantity& quantity : point_quantities)
+      for (int p = 1; p <= observables::wall_points; ++p)
+        table.add(derivative_name(fmt::format("{}.P{}", quantity.name, p), k),
+                  derivative_unit(quantity.unit, k));
+  }
+  return table;
+}
+
+void Observer::append_sensitivities(double time, const double* y,
+                                    const std::vector<const double*>& sensitivities,
+                                    observables::Table& table) const {
+  const auto& curve = network_.curve();
+  std::size_t column = 0;
+  const auto put = [&](double value) { table[column++].values.push_back(value); };
+  put(time);
+  for (std::size_t k = 0; k < sensitivities.size(); ++k) {
+    const int parameter = static_cast<int>(k);
+    const Outside<D> outside = network_.outside_derivative(time, y, sensitivities[k], parameter);
+    const auto& ring = network_.seeded_ring(parameter);
+    const double s = outside.lumen_stretch.value;
+    const double ds = outside.lumen_stretch.derivative[0];
+    const auto displacement = [&](int p) {
+      return D(curve.displacement(s, p),
+               {curve.displacement_rate(s, p) * ds + curve.displacement_derivative(s, parameter, p)});
+    };
+    const auto slope = [&](int p) {
+      return D(curve.radial_slope(s, p),
+               {curve.radial_slope_rate(s, p) * ds + curve.radial_slope_derivative(s, parameter, p)});
+    };
+    put(outside.pressure.derivative[0]);
+    put(outside.outlet_pressure.derivative[0]);
+    put((outside.pressure - ring.external_pressure(displacement(observables::wall_points - 1)))
+            .derivative[0]);
+    put(outside.inflow.derivative[0]);
+    put(outside.outflow.derivative[0]);
+    for (int p = 0; p < observables::wall_points; ++p) put(displacement(p).derivative[0]);
+    for (int p = 0; p < observables::wall_points; ++p) {
+      const auto& families = wall::families(ring.layers[place_layers_[p]].law);
+      if (families.empty()) {
+        put(observables::none);
+        continue;
+      }
+      const auto gradient = Radial::gradient(displacement(p), slope(p), ring.radius(curve.places()[p]));
+      put(wall::fiber_state(families.front(), gradient, Radial::axes()).angle.derivative[0] * degrees);
+    }
+  }
+}
+
+observables::Table Observer::profile_table() const {
+  observables::Table table;
+  for (const Quantity& quantity :
+       {Quantity{"time", "s"}, Quantity{"reference_radius", "cm"}, Quantity{"radial_displacement", "cm"},
+        Quantity{"radial_stretch", "1"}, Quantity{"circumferential_stretch", "1"},
+        Quantity{"volume_change", "1"}, Quantity{"fiber_stretch", "1"}, Quantity{"fiber_angle", "deg"},
+        Quantity{"recruitment", "1"}, Quantity{"radial_stress", "dyn/cm2"},
+        Quantity{"circumferential_stress", "dyn/cm2"}, Quantity{"axial_stress", "dyn/cm2"},
+        Quantity{"von_mises", "dyn/cm2"}})
+    table.add(quantity.name, quantity.unit);
+  return table;
+}
+
+void Observer::append_profile(double time, const double* y, observables::Table& table) const {
+  const auto& model = network_.curve().model();
+  const auto& ring = model.ring();
+  std::vector<double> places;
+  for (int k = 0; k < profile_points; ++k) places.push_back(static_cast<double>(k) / (profile_points - 1));
+  const auto response = model.respond(network_.mid_stretch(y), places, false);
+  const auto boundaries = radial::layer_boundaries(ring);
+  for (int k = 0; k < profile_points; ++k) {
+    const auto& state = response.states[k];
+    const double radius = ring.radius(places[k]);
+    const auto gradient = Radial::gradient(state.displacement, state.radial_slope, radius);
+    const auto& law = ring.layers[radial::layer_at(boundaries, places[k])].law;
+    // The law gives the stress up to the pressure that equilibrium adds to incompressible tissue: the
+    // radial stress, known either way, fixes it.
+    Tensor<double> cauchy = cauchy_stress(wall::piola(law, gradient, Radial::axes()), gradient);
+    const double correction = state.radial_stress - cauchy(0, 0);
+    wall::FiberState<double> fiber{observables::none, observables::none, observables::none};
+    const auto& families = wall::families(law);
+    if (!families.empty()) fiber = wall::fiber_state(families.front(), gradient, Radial::axes());
+    const double row[] = {time,
+                          radius,
+                          state.displacement,
+                          1 + state.radial_slope,
+                          1 + state.displacement / radius,
+                          volume_change(gradient),
+                          fiber.stretch,
+                          fiber.angle * degrees,
+                          fiber.recruitment,
+                          cauchy(0, 0) + correction,
+                          cauchy(1, 1) + correction,
+                          cauchy(2, 2) + correction,
+                          von_mises_stress(cauchy)};
+    std::size_t column = 0;
+    for (const double value : row) table[column++].values.push_back(value);
+  }
+}
+
+}  // namespace tunica::lumped

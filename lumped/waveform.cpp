@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lumped/waveform.hpp"
+
+#include <gsl/gsl_interp.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "core/scene/waveform_file.hpp"
+
+namespace tunica::lumped {
+
+namespace {
+
+/// Flow of the internal carotid artery over its mean, 1 + sum_k a_k cos(2 pi k t/T) + b_k sin(2 pi k t/T).
+/// Coefficients: Baek, Jayaraman, Richardson and Karniadakis, J. R. Soc. Interface 7:967 (2010), the
+/// waveform that the paper's authors use.
+class CarotidFlow final : public Waveform {
+ public:
+  explicit CarotidFlow(double period) : period_(period) {}
+
+  double at(double time) const override {
+    static constexpr std::array<double, 7> cosine{-0.152001, -0.111619, 0.043304, 0.028871,
+                                                  0.002098,  -0.027237, -0.000557};
+    static constexpr std::array<double, 7> sine{0.129013, -0.031435, -0.086106, 0.028263,
+                                                0.010177, 0.012160,  -0.026303};
+    const double phase = 2 * std::numbers::pi * std::fmod(time, period_) / period_;
+    double sum = 1;
+    for (std::size_t k = 0; k < cosine.size(); ++k) {
+      const double angle = static_cast<double>(k + 1) * phase;
+      sum += cosine[k] * std::cos(angle) + sine[k] * std::sin(angle);
+    }
+    return sum;
+  }
+
+ private:
+  double period_;
+};
+
+class Constant final : public Waveform {
+ public:
+  double at(double) const override { return 1; }
+};
+
+/// Periodic cubic spline (GSL) through one period of samples.
+class PeriodicSpline final : public Waveform {
+ public:
+  explicit PeriodicSpline(scene::WaveformFile file)
+      : time_(std::move(file.time)),
+        value_(std::move(file.value)),
+        spline_(gsl_interp_alloc(gsl_interp_cspline_periodic, time_.size()), &gsl_interp_free) {
+    value_.back() = value_.front();
+    gsl_interp_init(spline_.get(), time_.data(), value_.data(), time_.size());
+  }
+
+  double at(double time) const override {
+    const double period = time_.back() - time_.front();
+    double within = std::fmod(time - time_.front(), period);
+    if (within < 0) within += period;
+    return gsl_interp_eval(spline_.get(), time_.data(), value_.data(), time_.front() + within, nullptr);
+  }
+
+ private:
+  std::vector<double> time_, value_;
+  std::unique_ptr<gsl_interp, decltype(&gsl_interp_free)> spline_;
+};
+
+}  // namespace
+
+double Inlet::shape_at(double time) const {
+  const double value = shape->at(time);
+  return time < ramp ? 0.5 * (1 - std::cos(std::numbers::pi * time / ramp)) * value : value;
+}
+
+Inlet inlet_from_scene(const Scene& scene) {
+  Inlet inlet;
+  const std::string& waveform = scene.text("inlet.waveform");
+  if (waveform == "ica" || waveform == "constant") {
+    inlet.period = scene.number("inlet.period");
+    inlet.scale_key = "inlet.flow";
+    if (waveform == "ica")
+      inlet.shape = std::make_unique<CarotidFlow>(inlet.period);
+    else
+      inlet.shape = std::make_unique<Constant>();
+  } else if (waveform == "pressure") {
+    inlet.is_pressure = true;
+    inlet.period = scene.number("inlet.period");
+    inlet.scale_key = "inlet.pressure";
+    inlet.shape = std::make_unique<Constant>();
+  } else {
+    scene::WaveformFile file = scene::read_waveform(scene.folder() / waveform);
+    inlet.is_pressure = file.is_pressure;
+    inlet.period = file.period;
+    inlet.shape = std::make_unique<PeriodicSpline>(std::move(file));
+  }
+  if (scene.text("time.start") == "rest") inlet.ramp = scene.number("time.ramp");
+  return inlet;
+}
+
+}  // namespace tunica::lumped

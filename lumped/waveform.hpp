@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+
+#include "core/scene/scene.hpp"
+
+namespace tunica::lumped {
+
+/// A periodic function of time at the inlet, without its scale.
+class Waveform {
+ public:
+  virtual ~Waveform() = default;
+  virtual double at(double time) const = 0;
+};
+
+/// The inlet of a scene: flow (cm3/s) or pressure (dyn/cm2), equal to scale * shape(t).
+struct Inlet {
+  bool is_pressure = false;
+  double period = 0;      ///< s
+  std::string scale_key;  ///< scene key of the scale; empty for a CSV file, whose scale is 1
+  std::unique_ptr<const Waveform> shape;
+  double ramp = 0;  ///< s; growth from 0 at the start, see time.ramp
+
+  /// shape(t), times (1 - cos(pi t / ramp))/2 while t < ramp.
+  double shape_at(double time) const;
+};
+
+/// Throws InvalidInput when the scene's CSV file cannot be used.
+Inlet inlet_from_scene(const Scene& scene);
+
+}  // namespace tunica::lumped
