@@ -10,6 +10,8 @@
 #include <map>
 #include <vector>
 
+#include "core/observables/record.hpp"
+
 namespace tunica::verification {
 
 namespace {
@@ -62,7 +64,7 @@ Answer per_law(const Claim& claim, const ReadingGroup& group, int decimals,
 }
 
 double radius_of(const ComparedRun& run) {
-  return run.stored->record["scene"].value("geometry.radius", none);
+  return scene_number(run.stored->record, "geometry.radius");
 }
 
 Answer change_of_radius(const Claim& claim, const ReadingGroup& group) {
@@ -204,7 +206,7 @@ Answer angle_change(const Claim& claim, const ComparedRun& run) {
 }
 
 Answer reference_angle(const Claim& claim, const ComparedRun& run) {
-  const double angle = run.stored->record["scene"].value("wall.fiber_angle", none);
+  const double angle = scene_number(run.stored->record, "wall.fiber_angle");
   if (is_none(angle)) return needs("a scene with wall.fiber_angle");
   Answer answer;
   answer.ours = with_unit(fmt::format("{:.2f}", angle), claim.unit);
@@ -416,8 +418,10 @@ Answer answer(const Claim& claim, const ReadingGroup& group) {
     return known->second(claim, group);
   result.verdict = Verdict::not_answered_by_tier;
   if (claim.geometry == "torus") result.note = "needs the 3D tier";
-  if (claim.id == "dofs_cylinder" && !group.runs.empty())
-    result.ours = fmt::format("{}", group.runs.front().stored->record.value("unknowns", 0L));
+  if (claim.id == "dofs_cylinder")
+    if (const auto unknowns = group.runs.front().stored->record.find("unknowns");
+        unknowns != group.runs.front().stored->record.end())
+      result.ours = unknowns->dump();
   return result;
 }
 

@@ -10,6 +10,7 @@
 #include <optional>
 #include <ranges>
 
+#include "core/observables/record.hpp"
 #include "core/scene/parameter.hpp"
 #include "core/wall/catalog.hpp"
 #include "verification/claims.hpp"
@@ -19,23 +20,7 @@ namespace tunica::verification {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using observables::none;
-
-const Json& scene_of(const StoredResult& run) {
-  static const Json empty = Json::object();
-  const auto scene = run.record.find("scene");
-  return scene != run.record.end() && scene->is_object() ? *scene : empty;
-}
-
-std::string scene_text(const StoredResult& run, const char* key) {
-  const auto value = scene_of(run).find(key);
-  return value != scene_of(run).end() && value->is_string() ? value->get<std::string>() : std::string();
-}
-
-double scene_number(const StoredResult& run, const char* key) {
-  const auto value = scene_of(run).find(key);
-  return value != scene_of(run).end() && value->is_number() ? value->get<double>() : none;
-}
+using namespace observables;
 
 /// Choices that the paper leaves open, or that do not change what is computed.
 bool is_free(std::string_view key) {
@@ -93,17 +78,17 @@ const ComparedRun* ReadingGroup::find(std::string_view law) const {
 
 Reading read_reading(const StoredResult& run) {
   Reading reading;
-  reading.tier = run.record.value("tier", std::string());
-  reading.tether = scene_text(run, "tether.traction");
-  const auto* law = wall::find_law(scene_text(run, "wall.law"));
+  reading.tier = record_text(run.record, "tier");
+  reading.tether = scene_text(run.record, "tether.traction");
+  const auto* law = wall::find_law(scene_text(run.record, "wall.law"));
   if (!law || !law->has_fibers) return reading;
-  const double exponent = scene_number(run, "wall.exponent");
+  const double exponent = scene_number(run.record, "wall.exponent");
   reading.exponent = std::isnan(exponent) ? 2 : std::lround(exponent);
   if (!law->has_activation) return reading;
-  reading.activation_squared = scene_number(run, "wall.activation_squared");
+  reading.activation_squared = scene_number(run.record, "wall.activation_squared");
   if (std::isnan(reading.activation_squared)) {
-    const double stretch = scene_number(run, "wall.activation_stretch");
-    const double angle = scene_number(run, "wall.fiber_angle") * std::numbers::pi / 180;
+    const double stretch = scene_number(run.record, "wall.activation_stretch");
+    const double angle = scene_number(run.record, "wall.fiber_angle") * std::numbers::pi / 180;
     reading.activation_squared = std::pow(stretch * std::cos(angle), 2) + std::pow(std::sin(angle), 2);
   }
   return reading;
@@ -125,12 +110,12 @@ std::vector<std::string> differences_from_paper(const StoredResult& run) {
   std::vector<std::string> differences;
   const auto set_keys = run.record.find("scene_set");
   if (set_keys == run.record.end() || !set_keys->is_array()) return differences;
-  const Json& scene = scene_of(run);
+  const Json& scene = recorded_scene(run.record);
   for (const Json& entry : *set_keys) {
     if (!entry.is_string()) continue;
     const auto key = entry.get<std::string>();
     if (is_free(key) || !scene.contains(key)) continue;
-    const std::optional<Json> paper = paper_value(key, scene_text(run, "wall.law"));
+    const std::optional<Json> paper = paper_value(key, scene_text(run.record, "wall.law"));
     if (paper && *paper == scene[key]) continue;
     differences.push_back(paper ? fmt::format("{} = {} (paper: {})", key, scene[key].dump(), paper->dump())
                                 : fmt::format("{} = {}", key, scene[key].dump()));
@@ -144,10 +129,10 @@ std::vector<ReadingGroup> group_by_reading(const std::vector<StoredResult>& runs
   std::vector<Reading> readings;
   const auto leave_out = [&](const StoredResult& run, const std::string& why) {
     const auto folder = (run.folder / "").parent_path().filename();
-    left_out.push_back(fmt::format("{} ({}): {}", folder.string(), scene_text(run, "wall.law"), why));
+    left_out.push_back(fmt::format("{} ({}): {}", folder.string(), scene_text(run.record, "wall.law"), why));
   };
   for (const StoredResult& run : runs) {
-    ComparedRun compared{&run, scene_text(run, "wall.law"), {}};
+    ComparedRun compared{&run, scene_text(run.record, "wall.law"), {}};
     const auto is_paper_law = [&](const PaperLaw& law) { return law.name == compared.law; };
     if (std::none_of(std::begin(paper_laws), std::end(paper_laws), is_paper_law)) {
       leave_out(run, "not one of the paper's laws");

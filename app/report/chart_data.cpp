@@ -10,6 +10,7 @@
 
 #include "app/report/html.hpp"
 #include "app/report/sections.hpp"
+#include "core/observables/record.hpp"
 
 namespace tunica::report {
 
@@ -139,7 +140,7 @@ void append_sensitivities(Object& run, const RunSummary& summary) {
   const Table& table = summary.stored->result.sensitivities;
   const Column* time = table.find("time");
   if (!time) return;
-  const auto& scene = summary.stored->record.value("scene", nlohmann::ordered_json::object());
+  const auto& scene = recorded_scene(summary.stored->record);
   std::map<std::string, std::map<std::string, const Column*>> by_quantity;
   std::map<std::string, double> values;
   std::map<std::string, bool> without_percent;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "core/observables/record.hpp"
 #include "verification/claims.hpp"
 
 namespace tunica::report {
@@ -13,19 +14,6 @@ namespace tunica::report {
 namespace {
 
 using namespace observables;
-using Json = nlohmann::ordered_json;
-
-const Json& member(const Json& object, const char* key) {
-  static const Json nothing;
-  if (!object.is_object()) return nothing;
-  const auto found = object.find(key);
-  return found == object.end() ? nothing : *found;
-}
-
-std::string text_of(const Json& value) {
-  return value.is_string() ? value.get<std::string>() : std::string();
-}
-
 Range scaled(const Range& range, double unit) {
   return {range.lowest / unit, range.highest / unit};
 }
@@ -38,31 +26,29 @@ Range angles_at(const Table& table, double time) {
 }
 
 RunSummary summarize(const StoredResult& stored) {
-  const Json& scene = member(stored.record, "scene");
   const Table& table = stored.result.observables;
   RunSummary run;
   run.stored = &stored;
-  run.name = text_of(member(stored.record, "name"));
-  run.law = text_of(member(scene, "wall.law"));
-  run.tier = text_of(member(stored.record, "tier"));
+  run.name = record_text(stored.record, "name");
+  run.law = scene_text(stored.record, "wall.law");
+  run.tier = record_text(stored.record, "tier");
   run.beat = last_beat(stored);
   run.period_end = table.find("time")->values.back();
 
-  const std::string failure = text_of(member(stored.record, "failure"));
-  run.is_complete = failure.empty() && member(stored.record, "interrupted") != true;
-  run.state = !failure.empty()                               ? failure
-              : member(stored.record, "interrupted") == true ? "interrupted"
-              : member(stored.record, "converged") == false  ? "not converged"
-                                                             : "done";
+  const std::string failure = record_text(stored.record, "failure");
+  const bool is_interrupted = record_flag(stored.record, "interrupted");
+  run.is_complete = failure.empty() && !is_interrupted;
+  run.state = !failure.empty()                           ? failure
+              : is_interrupted                           ? "interrupted"
+              : !record_flag(stored.record, "converged") ? "not converged"
+                                                         : "done";
 
   run.pressure = scaled(range(table, "pressure", run.beat), mmhg);
   run.transmural_pressure = scaled(range(table, "transmural_pressure", run.beat), mmhg);
   const Range displacement = range(table, "radial_displacement.P1", run.beat);
-  const Json& radius = member(scene, "geometry.radius");
-  if (radius.is_number()) {
-    run.radius_change = displacement.width() / radius.get<double>();
-    run.largest_radius = displacement.highest / radius.get<double>();
-  }
+  const double radius = scene_number(stored.record, "geometry.radius");
+  run.radius_change = displacement.width() / radius;
+  run.largest_radius = displacement.highest / radius;
   const double systole = peak_time(table, "inflow", run.beat);
   run.systole = systole - run.beat.start;
   run.angle_at_start = angles_at(table, run.beat.start);

@@ -8,6 +8,7 @@
 
 #include "app/report/html.hpp"
 #include "app/report/sections.hpp"
+#include "core/observables/record.hpp"
 #include "verification/claims.hpp"
 
 namespace tunica::report {
@@ -223,9 +224,7 @@ std::string runs_section(const std::vector<RunSummary>& runs) {
   std::string text;
   for (std::size_t index = 0; index < runs.size(); ++index) {
     const RunSummary& run = runs[index];
-    const auto toml = run.stored->record.find("scene_toml");
-    const std::string scene =
-        toml != run.stored->record.end() && toml->is_string() ? toml->get<std::string>() : std::string();
+    const std::string scene = record_text(run.stored->record, "scene_toml");
     text += fmt::format("<details><summary><h3>{}{}</h3> <span>{} · {}</span></summary>\n", swatch(index),
                         escape(run.label), escape(run.tier), escape(run.stored->folder.string()));
     text += "<h4>Record</h4>\n" + record_list(run.stored->record);

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/observables/record.hpp"
 
 namespace tunica::observables {
 
@@ -15,14 +16,6 @@ namespace {
 const std::vector<double>* numbers(const Table& table, std::string_view name) {
   const Column* column = table.find(name);
   return column && !column->is_text() ? &column->values : nullptr;
-}
-
-/// A number of the scene as the record holds it; `none` when it is not there.
-double scene_number(const StoredResult& stored, const char* key) {
-  const auto scene = stored.record.find("scene");
-  if (scene == stored.record.end() || !scene->is_object()) return none;
-  const auto value = scene->find(key);
-  return value != scene->end() && value->is_number() ? value->get<double>() : none;
 }
 
 /// A moment at which fibres of a point switch, and what they are afterwards.
@@ -77,11 +70,12 @@ Beat last_beat(const StoredResult& stored) {
     throw InvalidInput(fmt::format("{}: observables.csv has no rows", stored.folder.string()));
   const double run_end = time->back();
   const bool ended_early =
-      stored.record.value("interrupted", false) || !stored.record.value("failure", std::string()).empty();
-  const double beats = scene_number(stored, "time.beats");
+      record_flag(stored.record, "interrupted") || !record_text(stored.record, "failure").empty();
+  const double beats = scene_number(stored.record, "time.beats");
   Beat beat;
-  beat.period = scene_number(stored, "inlet.period");
+  beat.period = scene_number(stored.record, "inlet.period");
   if (!ended_early && beats > 0) beat.period = (run_end - time->front()) / beats;
+  if (!(beat.period > 0)) beat.period = run_end - time->front();
   // Output times are sums of steps: half a thousandth of a beat tells a whole beat from a cut one.
   const double count = std::floor((run_end - time->front()) / beat.period + 5e-4);
   beat.whole = count >= 1;
