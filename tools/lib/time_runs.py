@@ -22,7 +22,7 @@ BARS = {"solver": 10.0, "with set-up": 25.0, "process": 80.0}  # ms
 def time_once(program, law, folder):
     start = time.perf_counter()
     subprocess.run(
-        [program, "run", "scenes/cylinder.toml", "--quiet", "--out", folder]
+        [program, "run", "scenes/cylinder.toml", "--quiet", "--no-report", "--out", folder]
         + ["--set", f"wall.law={law}", "--set", "accuracy.tolerance=1e-6", "--set", "time.beats=2"],
         check=True,
     )
