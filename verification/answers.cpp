@@ -320,11 +320,11 @@ Answer volume_change(const Claim& claim, const ReadingGroup& group) {
   std::vector<std::string> parts;
   bool within = true;
   for (const ComparedRun& run : group.runs) {
-    const Column* ratio = run.stored->result.profiles.find("volume_ratio");
+    const Column* column = run.stored->result.profiles.find("volume_change");
     Range change;
-    if (ratio)
-      for (const double value : ratio->values) change.include(std::abs(value - 1));
-    if (is_none(change.highest)) return needs("profiles with the volume ratio");
+    if (column)
+      for (const double value : column->values) change.include(std::abs(value));
+    if (is_none(change.highest)) return needs("profiles with the volume change");
     parts.push_back(labelled(run.law, change.highest, 4));
     within = within && change.highest <= number_of(claim.value) * (1 + 1e-9);
   }

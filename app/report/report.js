@@ -135,9 +135,9 @@
       .sort((a, b) => a - b);
     const lines = [];
     runs.forEach((run, at) => (run.profiles || []).forEach(profile => {
-      if (profile.columns[column] && profile.columns.radius)
+      if (profile.columns[column] && profile.columns.reference_radius)
         lines.push({run: at, runLabel: run.label, part: times.indexOf(profile.time.toFixed(4)),
-                    partLabel: `${Number(profile.time.toFixed(4))} s`, x: profile.columns.radius, y: profile.columns[column]});
+                    partLabel: `${Number(profile.time.toFixed(4))} s`, x: profile.columns.reference_radius, y: profile.columns[column]});
     }));
     const why = spec.why || "no profiles among the results";
     if (!lines.length) return note(parent, `${spec.title}: ${why}.`);

@@ -160,50 +160,56 @@ std::string claims_section(const std::vector<StoredResult>& runs) {
 std::string events_section(const std::vector<RunSummary>& runs) {
   std::string body;
   for (std::size_t index = 0; index < runs.size(); ++index) {
-    const Table& events = runs[index].stored->result.events;
+    const StoredResult& stored = *runs[index].stored;
+    const Table& events = stored.result.events;
     const Column* time = events.find("time");
     const Column* point = events.find("point");
-    const Column* event = events.find("event");
-    const Column* pressure = events.find("pressure");
-    if (!time || !point || !event || !point->is_text() || !event->is_text()) continue;
+    const Column* family = events.find("family");
+    const Column* change = events.find("change");
+    if (!time || !point || !family || !change || !point->is_text() || !change->is_text()) continue;
     for (std::size_t row = 0; row < events.rows(); ++row) {
-      const double in_beat = time->values[row] - runs[index].beat.start;
+      const double at = time->values[row];
+      const double in_beat = at - runs[index].beat.start;
       body += fmt::format(
-          "<tr>{}<td class=\"text\">{}</td><td class=\"text\">{}</td><td>{}</td><td>{}</td><td>{}</td></tr>",
-          run_header(runs[index], index), escape(point->labels[row]), escape(event->labels[row]),
-          number(time->values[row], 5), in_beat >= 0 ? number(in_beat, 5) : "–",
-          pressure ? number(pressure->values[row] / mmhg, 2) : "–");
+          "<tr>{}<td class=\"text\">{}</td><td>{}</td><td "
+          "class=\"text\">{}</td><td>{}</td><td>{}</td><td>{}</td></tr>",
+          run_header(runs[index], index), escape(point->labels[row]), number(family->values[row], 0),
+          escape(change->labels[row]), number(at, 5), in_beat >= 0 ? number(in_beat, 5) : "–",
+          number(value_at(stored.result.observables, "pressure", at) / mmhg, 2));
     }
   }
   if (body.empty()) return "<p class=\"note\">No fibres were recruited or released.</p>\n";
-  return table("Instants at which the fibres of a point are recruited or released.",
-               "<tr><th scope=\"col\">Run</th><th scope=\"col\">Point</th><th scope=\"col\">Event</th>"
-               "<th scope=\"col\">Time, s</th><th scope=\"col\">In the last beat, s</th>"
-               "<th scope=\"col\">Pressure, mmHg</th></tr>",
-               body);
+  return table(
+      "Instants at which the fibres of a point are recruited or released.",
+      "<tr><th scope=\"col\">Run</th><th scope=\"col\">Point</th><th scope=\"col\">Family</th>"
+      "<th scope=\"col\">Change</th><th scope=\"col\">Time, s</th><th scope=\"col\">In the last beat, s"
+      "</th><th scope=\"col\">Pressure, mmHg</th></tr>",
+      body);
 }
 
 namespace {
 
-std::string event_sensitivity_table(const RunSummary& run) {
-  const Table& events = run.stored->result.event_sensitivities;
-  if (events.rows() == 0) return "";
+/// Any table of the results as it is, in CGS.
+std::string plain_table(const char* caption, const Table& source) {
+  if (source.rows() == 0) return "";
   std::string head;
-  for (const Column& column : events.columns())
-    head += fmt::format("<th scope=\"col\">{}{}</th>", escape(column.name),
-                        column.is_text() ? "" : fmt::format("<br>{}", escape(column.unit)));
+  for (const Column& column : source.columns())
+    head +=
+        fmt::format("<th scope=\"col\">{}{}</th>", escape(column.name),
+                    column.is_text() || column.unit == "1" ? "" : fmt::format("<br>{}", escape(column.unit)));
   std::string body;
-  for (std::size_t row = 0; row < events.rows(); ++row) {
+  for (std::size_t row = 0; row < source.rows(); ++row) {
     body += "<tr>";
-    for (const Column& column : events.columns())
-      body += column.is_text() ? fmt::format("<td class=\"text\">{}</td>", escape(column.labels[row]))
-                               : fmt::format("<td>{}</td>", is_none(column.values[row])
-                                                                ? "–"
-                                                                : fmt::format("{:.6g}", column.values[row]));
+    for (const Column& column : source.columns()) {
+      if (column.is_text())
+        body += fmt::format("<td class=\"text\">{}</td>", escape(column.labels[row]));
+      else
+        body += fmt::format("<td>{}</td>",
+                            is_none(column.values[row]) ? "–" : fmt::format("{:.6g}", column.values[row]));
+    }
     body += "</tr>";
   }
-  return table("How the instants of recruitment move with the scene's parameters.", "<tr>" + head + "</tr>",
-               body);
+  return table(caption, "<tr>" + head + "</tr>", body);
 }
 
 std::string record_list(const nlohmann::ordered_json& record) {
@@ -228,7 +234,12 @@ std::string runs_section(const std::vector<RunSummary>& runs) {
     text += fmt::format("<details><summary><h3>{}{}</h3> <span>{} · {}</span></summary>\n", swatch(index),
                         escape(run.label), escape(run.tier), escape(run.stored->folder.string()));
     text += "<h4>Record</h4>\n" + record_list(run.stored->record);
-    text += event_sensitivity_table(run);
+    text += plain_table(
+        "Time for which the fibres of a point are recruited in the last beat, and how it moves "
+        "with the scene's parameters.",
+        run.stored->result.recruited_time);
+    text += plain_table("How the instants of recruitment and release move with the scene's parameters.",
+                        run.stored->result.event_sensitivities);
     text += fmt::format("<h4>Scene</h4>\n<pre tabindex=\"0\">{}</pre>\n</details>\n", escape(scene));
   }
   return text;

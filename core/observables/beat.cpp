@@ -24,15 +24,17 @@ struct Switch {
   bool recruited;
 };
 
+/// Those of fibre family 1, whose H is in observables.csv.
 std::vector<Switch> switches_from_events(const Table& events, const std::string& name) {
   std::vector<Switch> switches;
-  const Column* time = events.find("time");
+  const auto* time = numbers(events, "time");
+  const auto* family = numbers(events, "family");
   const Column* point = events.find("point");
-  const Column* event = events.find("event");
-  if (!time || !point || !event || !point->is_text() || !event->is_text()) return switches;
+  const Column* change = events.find("change");
+  if (!time || !family || !point || !change || !point->is_text() || !change->is_text()) return switches;
   for (std::size_t row = 0; row < events.rows(); ++row)
-    if (point->labels[row] == name)
-      switches.push_back({time->values[row], event->labels[row] == "recruited"});
+    if (point->labels[row] == name && (*family)[row] == 1)
+      switches.push_back({(*time)[row], change->labels[row] == "recruited"});
   return switches;
 }
 

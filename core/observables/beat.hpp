@@ -43,9 +43,9 @@ double value_at(const Table& table, std::string_view column, double time);
 /// its neighbours. `none` when the column is missing or empty.
 double peak_time(const Table& table, std::string_view column, const Beat& beat);
 
-/// Times (start, end) of the run between which fibres at a wall point (1 to wall_points) are recruited,
-/// clipped to [from, to]. Ends are the times in events.csv; where the run found none, the times at which
-/// H, linear between rows, passes 1/2. Empty for a law without fibres.
+/// Times (start, end) of the run between which fibres (family 1) at a wall point (1 to wall_points) are
+/// recruited, clipped to [from, to]. Ends are the times in events.csv; where the run found none, the times at
+/// which H, linear between rows, passes 1/2. Empty for a law without fibres.
 std::vector<std::pair<double, double>> recruited_intervals(const Result& result, int point, double from,
                                                            double to);
 

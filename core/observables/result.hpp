@@ -38,9 +38,10 @@ struct Result {
   observables::Table events;               ///< events.csv: the columns of observables::event_table
   observables::Table sensitivities;        ///< sensitivities.csv: time[s], then one column for every
                                            ///< observables::sensitivity_column; none when not asked for
-  observables::Table event_sensitivities;  ///< event_sensitivities.csv: point, event and time[s] as in
-  observables::Table recruited_time;       ///< recruited_time.csv: time recruited in the last beat, and its
-                                      ///< sensitivities events, then d(time)/d(key) columns; likewise
+  observables::Table event_sensitivities;  ///< event_sensitivities.csv: the columns of events, then
+                                           ///< d(time)/d(key); likewise
+  observables::Table recruited_time;       ///< recruited_time.csv: point, family[1], recruited_time[s] in the
+                                           ///< last beat, then its sensitivities; none without fibres
   RunRecord record;
 };
 
@@ -82,35 +83,40 @@ void append(Table& table, const Sample& sample);
 /// Values at one place in the wall at mid-length and one of the scene's output.profile_times.
 struct ProfilePoint {
   double time = none;                     ///< s, of the run (not of the beat)
-  double radius = none;                   ///< cm, in the unloaded wall
+  double reference_radius = none;         ///< cm, in the unloaded wall
   double radial_displacement = none;      ///< cm
+  double radial_stretch = none;           ///< deformed over unloaded length along the radius
   double circumferential_stretch = none;  ///< deformed over unloaded circumference
-  double volume_ratio = none;             ///< J, deformed over unloaded volume
+  double volume_change = none;            ///< J - 1
   double fiber_stretch = none;            ///< sqrt(I4bar) of family 1
   double fiber_angle = none;              ///< deg, as in WallPoint
   double recruitment = none;              ///< H of family 1
-  double von_mises = none;                ///< dyn/cm2, of the Cauchy stress
+  double radial_stress = none;            ///< dyn/cm2, Cauchy, as below
+  double circumferential_stress = none;   ///< dyn/cm2
+  double axial_stress = none;             ///< dyn/cm2
+  double von_mises = none;                ///< dyn/cm2
 };
 /// An empty table with the columns of profiles.csv.
 Table profile_table();
 /// Appends one row to a table made by profile_table; rows of one time follow each other, inside to outside.
 void append(Table& table, const ProfilePoint& point);
 
-/// Fibres of a wall point being recruited or released.
+/// A fibre family of a wall point being recruited or released.
 struct Event {
   double time = none;  ///< s, of the run
   int point = 1;       ///< 1 to wall_points, for P1..P4
+  int family = 1;
   bool recruited = true;
-  double pressure = none;  ///< dyn/cm2, as in Sample, at that time
 };
-/// An empty table with the columns of events.csv: time[s], point ("P1"), event ("recruited" or
-/// "released"), pressure[dyn/cm2].
+/// An empty table with the columns of events.csv: time[s], point ("P1"), family[1], change ("recruited" or
+/// "released").
 Table event_table();
 /// Appends one row to a table made by event_table.
 void append(Table& table, const Event& event);
 
 /// Name and unit of the column that holds the derivative of a quantity by a scene parameter:
-/// "d(pressure)/d(outlet.resistance)" and "(dyn/cm2)/(dyn s/cm5)".
+/// "d(pressure)/d(outlet.resistance)" and "(dyn/cm2)/(dyn s/cm5)"; the quantity's own unit when the
+/// parameter has none.
 struct ColumnHead {
   std::string name;
   std::string unit;

@@ -60,31 +60,36 @@ void append(Table& table, const Sample& sample) {
 Table profile_table() {
   Table table;
   table.add("time", "s");
-  table.add("radius", "cm");
+  table.add("reference_radius", "cm");
   table.add("radial_displacement", "cm");
+  table.add("radial_stretch", "1");
   table.add("circumferential_stretch", "1");
-  table.add("volume_ratio", "1");
+  table.add("volume_change", "1");
   table.add("fiber_stretch", "1");
   table.add("fiber_angle", "deg");
   table.add("recruitment", "1");
+  table.add("radial_stress", "dyn/cm2");
+  table.add("circumferential_stress", "dyn/cm2");
+  table.add("axial_stress", "dyn/cm2");
   table.add("von_mises", "dyn/cm2");
   return table;
 }
 
 void append(Table& table, const ProfilePoint& point) {
-  expect_columns(table, 9);
-  append_numbers(
-      table, 0,
-      {point.time, point.radius, point.radial_displacement, point.circumferential_stretch, point.volume_ratio,
-       point.fiber_stretch, point.fiber_angle, point.recruitment, point.von_mises});
+  expect_columns(table, 13);
+  append_numbers(table, 0,
+                 {point.time, point.reference_radius, point.radial_displacement, point.radial_stretch,
+                  point.circumferential_stretch, point.volume_change, point.fiber_stretch, point.fiber_angle,
+                  point.recruitment, point.radial_stress, point.circumferential_stress, point.axial_stress,
+                  point.von_mises});
 }
 
 Table event_table() {
   Table table;
   table.add("time", "s");
   table.add("point", "");
-  table.add("event", "");
-  table.add("pressure", "dyn/cm2");
+  table.add("family", "1");
+  table.add("change", "");
   return table;
 }
 
@@ -92,13 +97,14 @@ void append(Table& table, const Event& event) {
   expect_columns(table, 4);
   table[0].values.push_back(event.time);
   table[1].labels.push_back(fmt::format("P{}", event.point));
-  table[2].labels.emplace_back(event.recruited ? "recruited" : "released");
-  table[3].values.push_back(event.pressure);
+  table[2].values.push_back(event.family);
+  table[3].labels.emplace_back(event.recruited ? "recruited" : "released");
 }
 
 ColumnHead sensitivity_column(std::string_view quantity, std::string_view quantity_unit, std::string_view key,
                               std::string_view key_unit) {
-  return {fmt::format("d({})/d({})", quantity, key), fmt::format("({})/({})", quantity_unit, key_unit)};
+  return {fmt::format("d({})/d({})", quantity, key),
+          key_unit == "1" ? std::string(quantity_unit) : fmt::format("({})/({})", quantity_unit, key_unit)};
 }
 
 }  // namespace tunica::observables

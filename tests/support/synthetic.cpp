@@ -59,10 +59,10 @@ void add_profiles(Result& result, const SyntheticRun& wanted, bool fibers) {
       const double depth = index / 40.0;
       ProfilePoint point;
       point.time = time;
-      point.radius = 0.033 + 0.01 * depth;
+      point.reference_radius = 0.033 + 0.01 * depth;
       point.radial_displacement = wanted.displacement_scale * (0.6 + 0.4 * shape(time)) * (1 - 0.2 * depth);
-      point.circumferential_stretch = 1 + point.radial_displacement / point.radius;
-      point.volume_ratio = 1 - 0.01 * (1 - depth);
+      point.circumferential_stretch = 1 + point.radial_displacement / point.reference_radius;
+      point.volume_change = -0.01 * (1 - depth);
       point.von_mises = (4e5 + 4e5 * shape(time)) * (1 - 0.3 * depth) * (fibers ? 0.8 : 1.0);
       if (fibers) {
         point.fiber_stretch = 1 + 0.25 * (1 - 0.3 * depth);
@@ -79,7 +79,7 @@ void add_events(Result& result, const SyntheticRun& wanted) {
     const double half = period / (2 * std::numbers::pi) * std::acos(2 * synthetic_thresholds[index] - 1);
     const auto add = [&](double time, bool recruited) {
       if (time < wanted.beats * period)
-        append(result.events, Event{std::fmax(time, 1e-4), index + 1, recruited, 100 * mmhg});
+        append(result.events, Event{std::fmax(time, 1e-4), index + 1, 1, recruited});
     };
     for (int beat = 0; beat <= wanted.beats; ++beat) {
       add(beat * period + peak - half, true);
@@ -110,16 +110,10 @@ void add_sensitivities(Result& result) {
     }
   table[0].values = result.observables[0].values;
   Table& events = result.event_sensitivities;
-  events.add("point", "");
-  events.add("event", "");
-  events.add("time", "s");
+  events = result.events;
   const ColumnHead head = sensitivity_column("time", "s", "outlet.resistance", "dyn s/cm5");
   const std::size_t column = events.add(head.name, head.unit);
-  const Table& source = result.events;
-  events[0].labels = source.find("point")->labels;
-  events[1].labels = source.find("event")->labels;
-  events[2].values = source.find("time")->values;
-  events[column].values.assign(source.rows(), -1e-7);
+  events[column].values.assign(result.events.rows(), -1e-7);
 }
 
 nlohmann::ordered_json record_of(const SyntheticRun& wanted) {
