@@ -13,7 +13,6 @@ namespace tunica {
 
 namespace {
 
-using scene::Kind;
 using scene::Parameter;
 
 std::string toml_text(const std::string& text) {

@@ -33,21 +33,9 @@ const std::vector<std::string>& declared_tables() {
   return tables;
 }
 
-/// "wall.layers[3].families" as it is declared: "wall.layers[].families".
-std::string without_indices(std::string_view path) {
-  std::string declared;
-  bool inside = false;
-  for (const char letter : path) {
-    if (letter == ']') inside = false;
-    if (!inside) declared += letter;
-    if (letter == '[') inside = true;
-  }
-  return declared;
-}
-
 bool is_table(std::string_view path) {
   const auto& tables = declared_tables();
-  return std::find(tables.begin(), tables.end(), without_indices(path)) != tables.end();
+  return std::find(tables.begin(), tables.end(), declared_form(path)) != tables.end();
 }
 
 class Walk {

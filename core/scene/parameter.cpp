@@ -68,14 +68,17 @@ std::string Bounds::text() const {
                      upper);
 }
 
+std::string declared_form(std::string_view key) {
+  return pattern_of(key).key;
+}
+
 const Parameter* find_parameter(std::string_view key) {
   static const auto index = [] {
     std::map<std::string, const Parameter*, std::less<>> by_key;
     for (const Parameter& parameter : parameters()) by_key.emplace(parameter.key, &parameter);
     return by_key;
   }();
-  const Pattern pattern = pattern_of(key);
-  const auto entry = index.find(pattern.key);
+  const auto entry = index.find(declared_form(key));
   return entry == index.end() ? nullptr : entry->second;
 }
 

@@ -50,6 +50,10 @@ std::span<const Parameter> parameters();
 /// Null when there is none.
 const Parameter* find_parameter(std::string_view key);
 
+/// A key as it is declared: "wall.layers[].fraction" for "wall.layers[2].fraction". Brackets that hold
+/// anything but digits stay as they are, and so match no declaration.
+std::string declared_form(std::string_view key);
+
 /// The known key nearest to a misspelt one (edit distance), empty when none is near.
 std::string nearest_key(std::string_view key);
 

@@ -182,7 +182,7 @@ void SceneReader::remark_on_wall_keys_without_use() {
   bool families_used = families == 0;
   for (std::size_t i = 0; i < layers; ++i)
     families_used |= scene_.count(fmt::format("wall.layers[{}].families", i)) == families;
-  if (!families_used) scene_.remarks_.push_back("wall.families are not used: no layer takes them over");
+  if (!families_used) scene_.remarks_.emplace_back("wall.families are not used: no layer takes them over");
   for (const std::string& key : law_keys()) {
     const scene::GivenValue* given = given_.find("wall." + key);
     if (!given) continue;

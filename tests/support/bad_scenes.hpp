@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -18,5 +19,10 @@ struct BadScene {
 };
 
 const std::vector<BadScene>& bad_scenes();
+
+/// GoogleTest would print the bytes otherwise.
+inline void PrintTo(const BadScene& scene, std::ostream* stream) {
+  *stream << scene.name;
+}
 
 }  // namespace tunica::test_support

@@ -11,7 +11,7 @@ namespace {
 class Waveform : public testing::Test {
  protected:
   std::filesystem::path store(const char* text) const {
-    const auto file = folder_.path() / "wave.csv";
+    auto file = folder_.path() / "wave.csv";
     std::ofstream(file, std::ios::binary) << text;
     return file;
   }
