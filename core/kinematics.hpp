@@ -5,20 +5,26 @@
 
 namespace tunica {
 
-/// J - 1 = tr H + (tr^2 H - tr H^2)/2 + det H for the displacement gradient H = F - I. No 1 is
-/// subtracted from 1, so the relative accuracy stays at round-off for strains of any smallness.
+/// J - 1 of a displacement gradient H whose cofactor is known, see volume_change.
 template <class S>
-S volume_change(const Tensor<S>& displacement_gradient) {
-  const Tensor<S> minors = cofactor(displacement_gradient);
-  const S third = displacement_gradient(0, 0) * minors(0, 0) + displacement_gradient(0, 1) * minors(0, 1) +
-                  displacement_gradient(0, 2) * minors(0, 2);
-  return trace(displacement_gradient) + trace(minors) + third;
+S volume_change_from(const Tensor<S>& gradient, const Tensor<S>& minors) {
+  const S third =
+      gradient(0, 0) * minors(0, 0) + gradient(0, 1) * minors(0, 1) + gradient(0, 2) * minors(0, 2);
+  return trace(gradient) + trace(minors) + third;
+}
+
+/// J - 1 = tr H + tr cof H + det H for the displacement gradient H = F - I. No 1 is subtracted from 1,
+/// so the relative accuracy stays at round-off for strains of any smallness.
+template <class S>
+S volume_change(const Tensor<S>& gradient) {
+  return volume_change_from(gradient, cofactor(gradient));
 }
 
 /// What the laws need of a deformation, computed from the displacement gradient H = F - I.
 template <class S>
 struct Kinematics {
   Tensor<S> deformation_gradient;      ///< F
+  Tensor<S> deformation_cofactor;      ///< cof F = J F^-T
   Tensor<S> left_cauchy_green_change;  ///< b - I = H + H^T + H H^T
   S volume_change;                     ///< J - 1
   S jacobian;                          ///< J
@@ -29,8 +35,14 @@ struct Kinematics {
   explicit Kinematics(const Tensor<S>& gradient) : deformation_gradient(Tensor<S>::identity() + gradient) {
     using std::expm1;
     using std::log1p;
-    left_cauchy_green_change = gradient + transpose(gradient) + gradient * transpose(gradient);
-    volume_change = tunica::volume_change(gradient);
+    const Tensor<S> transposed = transpose(gradient);
+    left_cauchy_green_change = gradient + transposed + gradient * transposed;
+    const Tensor<S> minors = cofactor(gradient);
+    volume_change = volume_change_from(gradient, minors);
+    // cof(I + H) = (1 + tr H) I - H^T + cof H
+    deformation_cofactor = minors - transposed;
+    const S diagonal = 1.0 + trace(gradient);
+    for (int i = 0; i < 3; ++i) deformation_cofactor(i, i) = deformation_cofactor(i, i) + diagonal;
     jacobian = 1.0 + volume_change;
     log_jacobian = log1p(volume_change);
     isochoric_factor_change = expm1((-2.0 / 3.0) * log_jacobian);
@@ -44,7 +56,7 @@ struct Kinematics {
 
   /// First Piola-Kirchhoff stress P = tau F^-T of a Kirchhoff stress tau.
   Tensor<S> piola_from_kirchhoff(const Tensor<S>& kirchhoff) const {
-    return kirchhoff * ((1.0 / jacobian) * cofactor(deformation_gradient));
+    return (1.0 / jacobian) * (kirchhoff * deformation_cofactor);
   }
 };
 

@@ -25,6 +25,7 @@ class CompressibleRing final : public RingModel {
       : CompressibleRing(std::move(ring), std::move(seeded), Options{}) {}
 
   RingResponse respond(double lumen_stretch, std::span<const double> places, bool derivatives) const override;
+  double accuracy() const override;
   const Ring<double>& ring() const override { return ring_; }
   std::span<const Seeded> seeded() const override { return seeded_; }
 
@@ -55,6 +56,7 @@ class CompressibleRing final : public RingModel {
   Field field(const Solution& solution) const;
 
   Ring<double> ring_;
+  Ring<double> merged_;  ///< what is computed with: mirror images among the families taken together
   std::vector<Seeded> seeded_;
   Options options_;
   element::Line line_;

@@ -84,6 +84,10 @@ RingResponse IncompressibleRing::respond(double lumen_stretch, std::span<const d
         fmt::format("the stress of the wall overflows at lumen stretch {:.6g}", lumen_stretch));
   for (const double xi : places)
     response.states.push_back(state(ring_, lumen_stretch, response.pressure, xi));
+  for (const double xi : places) {
+    const auto m = motion(ring_, seed(lumen_stretch), xi);
+    response.state_rates.push_back({m.displacement.derivative[0], m.radial_slope.derivative[0], 0.0});
+  }
   if (!derivatives) return response;
 
   using D = Dual<double, 1>;

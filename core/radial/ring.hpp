@@ -57,6 +57,8 @@ struct RingResponse {
   double pressure;                        ///< in the lumen, dyn/cm2
   double pressure_slope;                  ///< dp/ds at fixed parameters: the inverse compliance
   std::vector<WallState<double>> states;  ///< at the places asked for
+  /// d/d(lumen stretch) of displacement and radial slope there (the stress rate is not computed: 0).
+  std::vector<WallState<double>> state_rates;
   /// For each parameter: derivatives at fixed lumen stretch.
   std::vector<double> pressure_derivatives;
   std::vector<std::vector<WallState<double>>> state_derivatives;  ///< [parameter][place]
@@ -74,6 +76,9 @@ class RingModel {
   /// Throws SolverFailure when there is none or it is not found; the message says why.
   virtual RingResponse respond(double lumen_stretch, std::span<const double> places,
                                bool derivatives) const = 0;
+
+  /// Relative accuracy of the responses; finer detail in them is noise.
+  virtual double accuracy() const { return 1e-10; }
 
   virtual const Ring<double>& ring() const = 0;
   virtual std::span<const Seeded> seeded() const = 0;

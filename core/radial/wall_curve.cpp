@@ -18,10 +18,11 @@ namespace tunica::radial {
 namespace {
 
 constexpr int terms = 12;
-constexpr double cell_width = 0.1;
+/// Pieces are at first not wider than this.
+constexpr double greatest_piece = 0.2;
 /// Pieces are not split below this: a kink that the thresholds do not know (exponent 1 lingers at its
 /// threshold) is then met to within the square of it.
-constexpr double least_piece = 1e-3;
+constexpr double least_piece = 2e-3;
 
 /// Chebyshev nodes of the first kind on [-1, 1]; no piece is evaluated at its very ends.
 double node(int k) {
@@ -39,12 +40,31 @@ const std::array<std::array<double, terms>, terms>& cosines() {
   return table;
 }
 
+/// I4bar - a^2 at a state that changes along a direction, its derivative along it included. P as in Ring.
+template <class P>
+Dual<double, 1> excess_along(const wall::CollagenFamily<P>& family, const Ring<P>& ring, double xi,
+                             const WallState<double>& state, const WallState<double>& change) {
+  using D = Dual<double, 1>;
+  const Kinematics<D> k(frame::Radial::gradient(D(state.displacement, {change.displacement}),
+                                                D(state.radial_slope, {change.radial_slope}),
+                                                D(ring.radius(xi))));
+  return family.excess(k, frame::Radial::axes());
+}
+
 }  // namespace
 
-WallCurve::WallCurve(std::unique_ptr<const RingModel> model, std::vector<double> places, double tolerance)
-    : model_(std::move(model)), places_(std::move(places)), tolerance_(tolerance) {
-  cells_.resize(static_cast<std::size_t>(std::ceil((greatest_stretch - least_stretch) / cell_width)));
+WallCurve::WallCurve(std::unique_ptr<const RingModel> model, std::vector<double> places)
+    : model_(std::move(model)), places_(std::move(places)) {
   find_thresholds();
+  double lower = least_stretch;
+  breaks_.push_back(greatest_stretch);
+  for (const double end : breaks_) {
+    if (!(end > lower + 1e-9)) continue;
+    const int parts = static_cast<int>(std::ceil((end - lower) / greatest_piece));
+    for (int k = 1; k <= parts; ++k)
+      cells_.push_back({k == parts ? end : lower + (end - lower) * k / parts, {}});
+    lower = end;
+  }
 }
 
 int WallCurve::channels() const {
@@ -61,28 +81,35 @@ RingResponse WallCurve::respond(double stretch, std::span<const double> places, 
   return model_->respond(stretch, places, derivatives);
 }
 
+/// A place, and the layer whose tissue is meant where two meet.
+struct WallCurve::Candidate {
+  double xi;
+  std::size_t layer;
+  int place;  ///< -1: a boundary of layers that is no place of the curve
+};
+
+std::vector<WallCurve::Candidate> WallCurve::candidates(const std::vector<double>& boundaries) const {
+  std::vector<Candidate> all;
+  for (std::size_t k = 0; k < places_.size(); ++k)
+    all.push_back({places_[k], layer_at(boundaries, places_[k]), static_cast<int>(k)});
+  for (std::size_t layer = 0; layer + 1 < boundaries.size(); ++layer) {
+    for (const double xi : {boundaries[layer], boundaries[layer + 1]}) {
+      const bool is_place = std::any_of(all.begin(), all.end(), [&](const Candidate& candidate) {
+        return candidate.layer == layer && candidate.xi == xi;
+      });
+      if (!is_place) all.push_back({xi, layer, -1});
+    }
+  }
+  return all;
+}
+
 void WallCurve::find_thresholds() {
   const Ring<double>& ring = model_->ring();
   const auto boundaries = layer_boundaries(ring);
-  // Layer boundaries break the curve too, seen from either side.
-  struct Candidate {
-    double xi;
-    std::size_t layer;
-    int place;
-  };
-  std::vector<Candidate> candidates;
-  for (std::size_t k = 0; k < places_.size(); ++k)
-    candidates.push_back({places_[k], layer_at(boundaries, places_[k]), static_cast<int>(k)});
-  for (std::size_t layer = 0; layer + 1 < boundaries.size(); ++layer) {
-    for (const double xi : {boundaries[layer], boundaries[layer + 1]}) {
-      const bool is_place = std::any_of(
-          candidates.begin(), candidates.end(),
-          [&](const Candidate& candidate) { return candidate.layer == layer && candidate.xi == xi; });
-      if (!is_place) candidates.push_back({xi, layer, -1});
-    }
-  }
-
-  for (const Candidate& candidate : candidates) {
+  for (const Candidate& candidate : candidates(boundaries)) {
+    // A place just inside its layer reads the slope of that layer.
+    const double xi =
+        std::clamp(candidate.xi, boundaries[candidate.layer] + 1e-12, boundaries[candidate.layer + 1]);
     const auto& families = wall::families(ring.layers[candidate.layer].law);
     for (std::size_t f = 0; f < families.size(); ++f) {
       const auto& family = families[f];
@@ -91,63 +118,72 @@ void WallCurve::find_thresholds() {
                earlier.activation_squared == family.activation_squared;
       });
       if (mirrored) continue;
-      const double cosine = std::cos(family.angle), sine = std::sin(family.angle);
-      // Where incompressible tissue would be recruited: hoop stretch^2 cos^2 + sin^2 = a^2.
-      const double hoop_squared = (family.activation_squared - sine * sine) / (cosine * cosine);
-      const double radius = ring.radius(candidate.xi);
-      const double squared =
-          1 + (hoop_squared - 1) * radius * radius / (ring.inner_radius * ring.inner_radius);
-      if (!(cosine > 1e-6) || !(squared > least_stretch * least_stretch)) continue;
-      const double guess = std::sqrt(squared);
-      // A place just inside the layer reads the slope of the layer that is meant.
-      const double inside =
-          std::clamp(candidate.xi, boundaries[candidate.layer] + 1e-12, boundaries[candidate.layer + 1]);
-      const std::array place{inside};
-      const auto excess = [&](double stretch) {
-        const auto response = respond(stretch, place, false);
-        return fiber_excess(family, ring, inside, response.states[0].displacement,
-                            response.states[0].radial_slope);
-      };
-      double threshold;
-      if (family.activation_squared == 1.0) {
-        threshold = 1.0;  // the unloaded state
-      } else {
-        const double margin = 0.03 * guess;
-        const double lower = std::max(least_stretch, guess - margin),
-                     upper = std::min(greatest_stretch, guess + margin);
-        if (lower >= upper) continue;
-        try {
-          threshold = find_root(excess, lower, upper, 1e-13);
-        } catch (const std::exception&) {
-          // No equilibrium there, or tissue too compressible for the estimate: the curve is then
-          // split where its coefficients ask for it.
-          continue;
-        }
-      }
-      breaks_.push_back(threshold);
-      if (candidate.place < 0) continue;
-
-      Threshold found{candidate.place, candidate.layer, f, threshold, {}};
-      if (!model_->seeded().empty()) {
-        const auto response = respond(threshold, place, true);
-        constexpr double step = 1e-6;
-        const double slope = (excess(threshold + step) - excess(threshold - step)) / (2 * step);
-        for (std::size_t p = 0; p < model_->seeded().size(); ++p) {
-          using D = Dual<double, 1>;
-          const auto& seeded = model_->seeded()[p];
-          const auto& state = response.states[0];
-          const auto& change = response.state_derivatives[p][0];
-          const Kinematics<D> k(frame::Radial::gradient(D(state.displacement, {change.displacement}),
-                                                        D(state.radial_slope, {change.radial_slope}),
-                                                        seeded.radius(inside)));
-          const D x = wall::families(seeded.layers[candidate.layer].law)[f].excess(k, frame::Radial::axes());
-          found.derivatives.push_back(-x.derivative[0] / slope);
-        }
-      }
-      thresholds_.push_back(std::move(found));
+      const auto stretch = threshold_stretch(family, xi);
+      if (!stretch) continue;
+      breaks_.push_back(*stretch);
+      if (candidate.place >= 0)
+        thresholds_.push_back({candidate.place, candidate.layer, f, *stretch,
+                               threshold_derivatives(candidate.layer, f, xi, *stretch)});
     }
   }
   std::sort(breaks_.begin(), breaks_.end());
+}
+
+std::optional<double> WallCurve::threshold_stretch(const wall::CollagenFamily<double>& family,
+                                                   double xi) const {
+  if (family.activation_squared == 1.0) return 1.0;  // the unloaded state
+  // Where incompressible tissue would be recruited: hoop stretch^2 cos^2 + sin^2 = a^2.
+  const Ring<double>& ring = model_->ring();
+  const double cosine = std::cos(family.angle), sine = std::sin(family.angle);
+  const double hoop_squared = (family.activation_squared - sine * sine) / (cosine * cosine);
+  const double ratio = ring.radius(xi) / ring.inner_radius;
+  const double squared = 1 + (hoop_squared - 1) * ratio * ratio;
+  if (!(cosine > 1e-6) || !(squared > least_stretch * least_stretch)) return std::nullopt;
+
+  const double guess = std::sqrt(squared);
+  if (!(guess < greatest_stretch)) return std::nullopt;
+  try {
+    double stretch = guess;
+    constexpr int most_iterations = 6;
+    for (int iteration = 0; iteration < most_iterations; ++iteration) {
+      const auto response = respond(stretch, std::array{xi}, false);
+      const auto x = excess_along(family, ring, xi, response.states[0], response.state_rates[0]);
+      const double update = -x.value / x.derivative[0];
+      stretch += update;
+      // Newton's method: the next update would be below round-off.
+      if (std::abs(update) < 1e-7) return stretch;
+    }
+    // Tissue whose stress jumps lingers at the threshold, which Newton's method does not foresee.
+    const auto excess = [&](double s) {
+      const auto state = respond(s, std::array{xi}, false).states[0];
+      return fiber_excess(family, ring, xi, state.displacement, state.radial_slope);
+    };
+    const double margin = 0.03 * guess;
+    const double lower = std::max(least_stretch, guess - margin),
+                 upper = std::min(greatest_stretch, guess + margin);
+    if ((excess(lower) > 0) == (excess(upper) > 0)) return std::nullopt;
+    return find_root(excess, lower, upper, 1e-10);
+  } catch (const SolverFailure&) {
+    return std::nullopt;  // no equilibrium there, so no threshold either
+  }
+}
+
+std::vector<double> WallCurve::threshold_derivatives(std::size_t layer, std::size_t family, double xi,
+                                                     double stretch) const {
+  std::vector<double> derivatives;
+  if (model_->seeded().empty()) return derivatives;
+  const auto response = respond(stretch, std::array{xi}, true);
+  const auto& law_family = wall::families(model_->ring().layers[layer].law)[family];
+  const double by_stretch =
+      excess_along(law_family, model_->ring(), xi, response.states[0], response.state_rates[0]).derivative[0];
+  for (std::size_t p = 0; p < model_->seeded().size(); ++p) {
+    const auto& ring = model_->seeded()[p];
+    const auto& seeded_family = wall::families(ring.layers[layer].law)[family];
+    const auto by_parameter =
+        excess_along(seeded_family, ring, xi, response.states[0], response.state_derivatives[p][0]);
+    derivatives.push_back(-by_parameter.derivative[0] / by_stretch);
+  }
+  return derivatives;
 }
 
 void WallCurve::build(double lower, double upper, Cell& cell) const {
@@ -195,12 +231,12 @@ void WallCurve::build(double lower, double upper, Cell& cell) const {
     const double* series = &piece.coefficients[c * terms];
     tail = std::max(tail, (std::abs(series[terms - 1]) + std::abs(series[terms - 2])) / scale);
   }
-  if (tail > tolerance_ && width > least_piece) {
+  if (tail > model_->accuracy() && width > least_piece) {
     const double middle = 0.5 * (lower + upper);
     build(lower, middle, cell);
     build(middle, upper, cell);
   } else {
-    cell.push_back(std::move(piece));
+    cell.pieces.push_back(std::move(piece));
   }
 }
 
@@ -210,20 +246,14 @@ const WallCurve::Piece& WallCurve::piece_at(double stretch) const {
     throw SolverFailure(
         fmt::format("the lumen stretch {:.6g} left the range {} to {} that the wall is computed for", stretch,
                     least_stretch, greatest_stretch));
-  const auto index =
-      std::min(cells_.size() - 1, static_cast<std::size_t>((stretch - least_stretch) / cell_width));
-  Cell& cell = cells_[index];
-  if (cell.empty()) {
-    const double lower = least_stretch + static_cast<double>(index) * cell_width;
-    std::vector<double> ends{lower};
-    for (const double b : breaks_)
-      if (b > ends.back() + 1e-12 && b < lower + cell_width - 1e-12) ends.push_back(b);
-    ends.push_back(lower + cell_width);
-    for (std::size_t k = 0; k + 1 < ends.size(); ++k) build(ends[k], ends[k + 1], cell);
-  }
-  const auto it = std::lower_bound(cell.begin(), cell.end(), stretch,
+  const auto found = std::lower_bound(cells_.begin(), cells_.end(), stretch,
+                                      [](const Cell& cell, double s) { return cell.upper < s; });
+  Cell& cell = *found;
+  if (cell.pieces.empty())
+    build(found == cells_.begin() ? least_stretch : std::prev(found)->upper, cell.upper, cell);
+  const auto it = std::lower_bound(cell.pieces.begin(), cell.pieces.end(), stretch,
                                    [](const Piece& piece, double s) { return piece.upper < s; });
-  last_ = it == cell.end() ? &cell.back() : &*it;
+  last_ = it == cell.pieces.end() ? &cell.pieces.back() : &*it;
   return *last_;
 }
 
@@ -256,10 +286,11 @@ double WallCurve::differentiate(double stretch, int channel) const {
 }
 
 void WallCurve::prepare(double from, double to) const {
-  const double end = std::min(to, greatest_stretch - 1e-9);
-  for (double stretch = std::max(from, least_stretch); stretch < end; stretch += cell_width)
-    piece_at(stretch);
-  piece_at(end);
+  double lower = least_stretch;
+  for (const Cell& cell : cells_) {
+    if (cell.upper > from && lower < to) piece_at(0.5 * (lower + cell.upper));
+    lower = cell.upper;
+  }
 }
 
 double WallCurve::stretch_at(double target) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/radial/ring.hpp"
@@ -19,13 +20,14 @@ struct Threshold {
 /// Pressure and wall states as functions of the lumen stretch, tabulated once and then evaluated in
 /// nanoseconds: piecewise Chebyshev series whose pieces end where a recruitment front enters or
 /// leaves the wall or passes a place, since derivatives jump there. Pieces are made when first asked
-/// for and split until the last coefficients are below `tolerance` of the scale.
+/// for and split until the last coefficients are below the accuracy of the
+/// model.
 ///
 /// Not safe for use by several threads at once (the table grows on reading).
 class WallCurve {
  public:
   /// `places`: xi in [0, 1] where states are wanted.
-  WallCurve(std::unique_ptr<const RingModel> model, std::vector<double> places, double tolerance = 1e-10);
+  WallCurve(std::unique_ptr<const RingModel> model, std::vector<double> places);
 
   /// Range of lumen stretch that is tabulated; outside it every query throws SolverFailure.
   static constexpr double least_stretch = 0.3;
@@ -64,7 +66,12 @@ class WallCurve {
     double lower, upper;
     std::vector<double> coefficients;  ///< [channel][term]
   };
-  using Cell = std::vector<Piece>;
+  /// A stretch interval without thresholds inside, and its pieces once they have been asked for.
+  struct Cell {
+    double upper;
+    std::vector<Piece> pieces;
+  };
+  struct Candidate;
 
   int channels() const;
   int parameter_channel(int k) const;
@@ -73,11 +80,15 @@ class WallCurve {
   double evaluate(double stretch, int channel) const;
   double differentiate(double stretch, int channel) const;
   void find_thresholds();
+  std::vector<Candidate> candidates(const std::vector<double>& boundaries) const;
+  /// Lumen stretch at which a family reaches its threshold at xi; none when it does not in the range.
+  std::optional<double> threshold_stretch(const wall::CollagenFamily<double>& family, double xi) const;
+  std::vector<double> threshold_derivatives(std::size_t layer, std::size_t family, double xi,
+                                            double stretch) const;
   RingResponse respond(double stretch, std::span<const double> places, bool derivatives) const;
 
   std::unique_ptr<const RingModel> model_;
   std::vector<double> places_;
-  double tolerance_;
   std::vector<Threshold> thresholds_;
   std::vector<double> breaks_;
   mutable std::vector<Cell> cells_;
