@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/observables/record.hpp"
+#include "verification/answer_parts.hpp"
 
 namespace tunica::verification {
 
@@ -18,30 +19,9 @@ namespace {
 
 using namespace observables;
 
-constexpr double mmhg = 1333.22387;  // dyn/cm2
-constexpr std::string_view fs_law = "EXP1+EXP2-FS";
-constexpr std::string_view zs_law = "EXP1+EXP2-ZS";
-
-Answer needs(std::string_view what) {
-  Answer answer;
-  answer.note = fmt::format("needs {}", what);
-  return answer;
-}
-
-Verdict numeric(bool within) {
-  return within ? Verdict::agrees : Verdict::disagrees;
-}
-Verdict qualitative(bool holds) {
-  return holds ? Verdict::qualitative_agreement : Verdict::disagrees;
-}
-
 /// "EXP1 75.0", held together by a no-break space.
 std::string labelled(std::string_view law, double value, int decimals) {
   return fmt::format("{}\u00a0{:.{}f}", short_name(law), value, decimals);
-}
-
-double number_of(const std::string& text) {
-  return std::stod(text);
 }
 
 /// One number for each law that was run, held against the paper's: all laws have to agree.
@@ -103,19 +83,6 @@ Answer transmural_range(const Claim& claim, const ReadingGroup& group) {
   return answer;
 }
 
-/// Times of the rows of a beat, counted from its start.
-std::vector<double> times_in_beat(const ComparedRun& run) {
-  std::vector<double> times;
-  const auto& all = run.table().find("time")->values;
-  for (std::size_t row = run.beat.first; row <= run.beat.last; ++row)
-    times.push_back(all[row] - run.beat.start);
-  return times;
-}
-
-double value_in_beat(const ComparedRun& run, std::string_view column, double time) {
-  return value_at(run.table(), column, std::min(run.beat.start + time, run.beat.end()));
-}
-
 Answer same_pressure(const Claim& claim, const ReadingGroup& group) {
   if (group.runs.size() < 2) return needs("runs of at least two laws");
   double largest = 0;
@@ -163,129 +130,6 @@ Answer ratio_of_isotropic(const Claim& claim, const ReadingGroup& group) {
   return answer;
 }
 
-Answer of_fibers(Answer answer, std::string_view law) {
-  answer.uses_exponent = true;
-  answer.uses_activation = law == fs_law;
-  return answer;
-}
-
-std::string range_text(const Range& range, int decimals) {
-  return fmt::format("{:.{}f} to {:.{}f}", range.lowest, decimals, range.highest, decimals);
-}
-
-double systole(const ComparedRun& run) {
-  return peak_time(run.table(), "inflow", run.beat);
-}
-
-/// Over P1..P4, since the paper does not say where in the wall it looks.
-Range angles_at(const ComparedRun& run, double time) {
-  Range angles;
-  for (int point = 1; point <= wall_points; ++point)
-    angles.include(value_at(run.table(), fmt::format("fiber_angle.P{}", point), time));
-  return angles;
-}
-
-Answer within_wall(const Claim& claim, const Range& range, int decimals) {
-  if (is_none(range.lowest)) return needs("columns that the run lacks");
-  const double paper = number_of(claim.value);
-  const double tolerance = number_of(claim.tolerance);
-  Answer answer;
-  answer.ours = with_unit(range_text(range, decimals), claim.unit);
-  answer.verdict = numeric(paper >= range.lowest - tolerance && paper <= range.highest + tolerance);
-  return answer;
-}
-
-Answer angle_change(const Claim& claim, const ComparedRun& run) {
-  Range changes;
-  for (int point = 1; point <= wall_points; ++point) {
-    const std::string column = fmt::format("fiber_angle.P{}", point);
-    const double start = value_at(run.table(), column, run.beat.start);
-    changes.include((start - value_at(run.table(), column, systole(run))) / start);
-  }
-  return within_wall(claim, changes, 3);
-}
-
-Answer reference_angle(const Claim& claim, const ComparedRun& run) {
-  const double angle = scene_number(run.stored->record, "wall.fiber_angle");
-  if (is_none(angle)) return needs("a scene with wall.fiber_angle");
-  Answer answer;
-  answer.ours = with_unit(fmt::format("{:.2f}", angle), claim.unit);
-  answer.verdict = numeric(std::abs(angle - number_of(claim.value)) <= number_of(claim.tolerance));
-  answer.note = "given in the scene";
-  return answer;
-}
-
-std::string interval_text(const ComparedRun& run, int point) {
-  std::vector<std::string> parts;
-  for (const auto& [from, to] :
-       recruited_intervals(run.stored->result, point, run.beat.start, run.beat.end()))
-    parts.push_back(fmt::format("{:.3f} to {:.3f} s", from - run.beat.start, to - run.beat.start));
-  return parts.empty() ? "never" : fmt::format("{}", fmt::join(parts, " and "));
-}
-
-/// Share of the beat in which fibres are recruited at some points, and whether all pass a criterion.
-Answer recruited_part(const ComparedRun& run, std::initializer_list<int> points,
-                      const std::function<bool(int, double)>& holds) {
-  std::vector<std::string> shares;
-  std::vector<std::string> notes;
-  bool all = true;
-  for (const int point : points) {
-    const double share = recruited_share(run.stored->result, point, run.beat);
-    if (is_none(share)) return needs("columns that the run lacks");
-    shares.push_back(fmt::format("P{} {:.1f} % of the beat", point, 100 * share));
-    notes.push_back(fmt::format("P{}: {}", point, interval_text(run, point)));
-    all = all && holds(point, share);
-  }
-  Answer answer;
-  answer.ours = fmt::format("{}", fmt::join(shares, ", "));
-  answer.verdict = qualitative(all);
-  answer.note = fmt::format("{}", fmt::join(notes, "; "));
-  return answer;
-}
-
-Answer recruited_around_peak(const ComparedRun& run) {
-  const double peak = peak_time(run.table(), "pressure", run.beat);
-  return recruited_part(run, {wall_points}, [&](int point, double share) {
-    const auto intervals = recruited_intervals(run.stored->result, point, run.beat.start, run.beat.end());
-    return share <= 0.25 && intervals.size() == 1 && intervals[0].first <= peak &&
-           peak <= intervals[0].second;
-  });
-}
-
-Answer falls_outwards(const ComparedRun& run) {
-  bool falls = true;
-  Range ratio;
-  for (const double time : times_in_beat(run)) {
-    double inner = value_in_beat(run, "radial_displacement.P1", time);
-    ratio.include(value_in_beat(run, fmt::format("radial_displacement.P{}", wall_points), time) / inner);
-    for (int point = 2; point <= wall_points; ++point) {
-      const double outer = value_in_beat(run, fmt::format("radial_displacement.P{}", point), time);
-      falls = falls && outer < inner;
-      inner = outer;
-    }
-  }
-  if (is_none(ratio.lowest)) return needs("columns that the run lacks");
-  Answer answer;
-  answer.ours = fmt::format("outer over inner displacement {}", range_text(ratio, 3));
-  answer.verdict = qualitative(falls);
-  return answer;
-}
-
-Answer stretch_largest_inside(const ComparedRun& run) {
-  const double time = peak_time(run.table(), "radial_displacement.P1", run.beat);
-  std::vector<double> stretches;
-  std::vector<std::string> parts;
-  for (int point = 1; point <= wall_points; ++point) {
-    stretches.push_back(value_at(run.table(), fmt::format("fiber_stretch.P{}", point), time));
-    parts.push_back(fmt::format("P{} {:.3f}", point, stretches.back()));
-  }
-  if (is_none(stretches.front())) return needs("columns that the run lacks");
-  Answer answer;
-  answer.ours = fmt::format("{}", fmt::join(parts, ", "));
-  answer.verdict = qualitative(std::max_element(stretches.begin(), stretches.end()) == stretches.begin());
-  return answer;
-}
-
 /// How far FS lies below the lowest of the other laws, relative to it, at P1..P4 and the paper's two times.
 Answer von_mises_lowest(const ReadingGroup& group) {
   const ComparedRun* fs = group.find(fs_law);
@@ -309,6 +153,8 @@ Answer von_mises_lowest(const ReadingGroup& group) {
                                 -100 * below.back()));
   }
   Answer answer;
+  answer.uses_activation = true;
+  answer.uses_exponent = true;
   answer.ours = fmt::format("FS against the lowest other law: {}", fmt::join(parts, ", "));
   answer.verdict = qualitative(lowest && most_outside);
   if (!lowest) answer.note = "FS is not the lowest everywhere";
@@ -336,26 +182,8 @@ Answer volume_change(const Claim& claim, const ReadingGroup& group) {
   return answer;
 }
 
-using OfGroup = std::function<Answer(const Claim&, const ReadingGroup&)>;
-using OfRun = std::function<Answer(const Claim&, const ComparedRun&)>;
-
-/// An answer from the run of the claim's own law.
-OfGroup of_law(OfRun of_run) {
-  return [of_run = std::move(of_run)](const Claim& claim, const ReadingGroup& group) {
-    const ComparedRun* run = group.find(claim.law);
-    if (!run) return needs(fmt::format("a run of {}", claim.law));
-    return of_fibers(of_run(claim, *run), claim.law);
-  };
-}
-
-const std::map<std::string_view, OfGroup>& answers() {
-  const OfGroup start_angle = of_law([](const Claim& claim, const ComparedRun& run) {
-    return within_wall(claim, angles_at(run, run.beat.start), 2);
-  });
-  const OfGroup systole_angle = of_law([](const Claim& claim, const ComparedRun& run) {
-    return within_wall(claim, angles_at(run, systole(run)), 2);
-  });
-  static const std::map<std::string_view, OfGroup> all{
+const std::map<std::string_view, Answerer>& answers() {
+  static const std::map<std::string_view, Answerer> all{
       {"p_min",
        [](const Claim& claim, const ReadingGroup& group) {
          return per_law(claim, group, 1, [](const ComparedRun& run) {
@@ -378,35 +206,43 @@ const std::map<std::string_view, OfGroup>& answers() {
       {"exp2_over_exp1", ratio_of_isotropic},
       {"transmural_range", transmural_range},
       {"j_margin", volume_change},
-      {"vm_fs_lowest",
-       [](const Claim&, const ReadingGroup& group) { return of_fibers(von_mises_lowest(group), fs_law); }},
-      {"displacement_decreases",
-       of_law([](const Claim&, const ComparedRun& run) { return falls_outwards(run); })},
-      {"fiber_stretch_inner",
-       of_law([](const Claim&, const ComparedRun& run) { return stretch_largest_inside(run); })},
-      {"fs_angle_ref", of_law(reference_angle)},
-      {"zs_angle_ref", of_law(reference_angle)},
-      {"fs_angle_hb", start_angle},
-      {"zs_angle_hb", start_angle},
-      {"fs_angle_sys", systole_angle},
-      {"zs_angle_sys", systole_angle},
-      {"fs_angle_change", of_law(angle_change)},
-      {"zs_angle_change", of_law(angle_change)},
-      {"fs_P1", of_law([](const Claim&, const ComparedRun& run) {
-         return recruited_part(run, {1}, [](int, double share) { return share >= 0.85; });
-       })},
-      {"fs_P23", of_law([](const Claim&, const ComparedRun& run) {
-         return recruited_part(run, {2, 3}, [](int, double share) { return share >= 0.15 && share <= 0.85; });
-       })},
-      {"fs_P4", of_law([](const Claim&, const ComparedRun& run) { return recruited_around_peak(run); })},
-      {"zs_always", of_law([](const Claim&, const ComparedRun& run) {
-         return recruited_part(run, {1, 2, 3, 4}, [](int, double share) { return share > 1 - 1e-9; });
-       })},
+      {"vm_fs_lowest", [](const Claim&, const ReadingGroup& group) { return von_mises_lowest(group); }},
   };
   return all;
 }
 
 }  // namespace
+
+Answer needs(std::string_view what) {
+  Answer answer;
+  answer.note = fmt::format("needs {}", what);
+  return answer;
+}
+
+double number_of(const std::string& text) {
+  return std::stod(text);
+}
+
+std::string range_text(const Range& range, int decimals) {
+  return fmt::format("{:.{}f} to {:.{}f}", range.lowest, decimals, range.highest, decimals);
+}
+
+/// Times of the rows of a beat, counted from its start.
+std::vector<double> times_in_beat(const ComparedRun& run) {
+  std::vector<double> times;
+  const auto& all = run.table().find("time")->values;
+  for (std::size_t row = run.beat.first; row <= run.beat.last; ++row)
+    times.push_back(all[row] - run.beat.start);
+  return times;
+}
+
+double value_in_beat(const ComparedRun& run, std::string_view column, double time) {
+  return value_at(run.table(), column, std::min(run.beat.start + time, run.beat.end()));
+}
+
+double systole(const ComparedRun& run) {
+  return peak_time(run.table(), "inflow", run.beat);
+}
 
 std::string with_unit(const std::string& value, const std::string& unit) {
   return value.empty() || unit.empty() || unit == "1" ? value : value + " " + unit;
@@ -416,6 +252,7 @@ Answer answer(const Claim& claim, const ReadingGroup& group) {
   Answer result;
   if (const auto known = answers().find(claim.id); known != answers().end())
     return known->second(claim, group);
+  if (const Answerer answerer = fiber_answerer(claim.id)) return answerer(claim, group);
   result.verdict = Verdict::not_answered_by_tier;
   if (claim.geometry == "torus") result.note = "needs the 3D tier";
   if (claim.id == "dofs_cylinder")

@@ -32,10 +32,6 @@ std::vector<Claim> read_claims() {
   return claims;
 }
 
-std::string joined(const std::string& first, const std::string& second) {
-  return first.empty() || second.empty() ? first + second : first + "; " + second;
-}
-
 /// A cell of a Markdown table: '|' would end it, '<' could start HTML.
 std::string cell(std::string_view text) {
   std::string escaped;
@@ -84,9 +80,13 @@ Comparison compare_with_paper(const std::vector<StoredResult>& runs) {
       row.paper = with_unit(claim.value, claim.unit);
       row.ours = found.ours;
       if (!claim.tolerance.empty()) row.tolerance = "± " + with_unit(claim.tolerance, claim.unit);
-      row.reading = to_text(group.reading, found.uses_activation, found.uses_exponent);
+      // What a tier cannot tell it cannot tell under any reading.
+      row.reading = found.verdict == Verdict::not_answered_by_tier
+                        ? group.reading.tier
+                        : to_text(group.reading, found.uses_activation, found.uses_exponent);
       row.verdict = found.verdict;
-      row.note = joined(claim.note, found.note);
+      row.about = claim.note;
+      row.note = found.note;
       const bool is_known =
           std::any_of(comparison.rows.begin(), comparison.rows.end(), [&](const ClaimRow& other) {
             return other.id == row.id && other.reading == row.reading && other.ours == row.ours;
@@ -97,12 +97,34 @@ Comparison compare_with_paper(const std::vector<StoredResult>& runs) {
 }
 
 std::string to_markdown(const Comparison& comparison) {
-  std::string text =
-      "| Claim | Law | Paper | Ours | Reading | Verdict | Remarks |\n|---|---|---|---|---|---|---|\n";
-  for (const ClaimRow& row : comparison.rows)
-    text += fmt::format("| {} ({}) | {} | {} | {} | {} | **{}** | {} |\n", cell(row.quantity),
-                        cell(row.where), cell(row.law), cell(joined(row.paper, row.tolerance)),
-                        cell(row.ours), cell(row.reading), to_text(row.verdict), cell(row.note));
+  std::string text = "| Claim | Paper | Ours | Verdict | Reading | Remarks |\n|---|---|---|---|---|---|\n";
+  const auto& rows = comparison.rows;
+  std::vector<bool> done(rows.size());
+  std::string_view last_claim;
+  for (std::size_t index = 0; index < rows.size(); ++index) {
+    if (done[index]) continue;
+    const ClaimRow& row = rows[index];
+    // Readings with the same answer share a line.
+    std::string readings;
+    for (std::size_t other = index; other < rows.size(); ++other) {
+      const ClaimRow& same = rows[other];
+      if (same.id != row.id || same.ours != row.ours || same.verdict != row.verdict || same.note != row.note)
+        continue;
+      readings += (readings.empty() ? "" : "<br>") + cell(same.reading);
+      done[other] = true;
+    }
+    std::string claim = "〃";
+    std::string paper = "〃";
+    if (row.id != last_claim) {
+      claim = fmt::format("{}<br>*{}; {}{}*", cell(row.quantity), cell(row.where), cell(row.law),
+                          row.about.empty() ? "" : "; " + cell(row.about));
+      paper = row.paper.empty() ? "in words" : cell(row.paper);
+      if (!row.tolerance.empty()) paper += "<br>" + cell(row.tolerance);
+    }
+    last_claim = row.id;
+    text += fmt::format("| {} | {} | {} | **{}** | {} | {} |\n", claim, paper, cell(row.ours),
+                        to_text(row.verdict), readings, cell(row.note));
+  }
   for (const std::string& line : comparison.left_out) text += fmt::format("\nNot compared: {}\n", cell(line));
   return text;
 }

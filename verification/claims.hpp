@@ -12,7 +12,7 @@ namespace tunica::verification {
 enum class Verdict {
   agrees,                  ///< a number within the stated tolerance of the paper's
   disagrees,               ///< a number outside it, or a statement that our run contradicts
-  qualitative_agreement,   ///< a statement that our run bears out, by the criterion in the note
+  qualitative_agreement,   ///< a statement that our run bears out, by the criterion in `about`
   not_answered_by_tier,    ///< the model that ran cannot tell
   not_answered_by_results  ///< it could, but the law was not run or the column was not written
 };
@@ -27,13 +27,15 @@ struct ClaimRow {
   std::string paper;     ///< the paper's value with unit; empty for a statement
   std::string ours;      ///< ours with unit, for each law
   std::string tolerance;
+  std::string about;    ///< how the claim is stated, and the criterion for a statement
   std::string reading;  ///< tier and how misprints were read: tether, a^2, exponent of the fibre law
   Verdict verdict = Verdict::not_answered_by_results;
-  std::string note;
+  std::string note;  ///< what else these runs say
 };
 
 struct Comparison {
-  std::vector<ClaimRow> rows;         ///< claim by claim, for each reading; empty without a usable run
+  std::vector<ClaimRow> rows;         ///< claim by claim, for each reading that matters to it; empty
+                                      ///< without a usable run
   std::vector<std::string> left_out;  ///< runs not compared and why, one line each
 };
 
@@ -49,7 +51,7 @@ std::string reading_of(const StoredResult& run);
 /// The law and the choices named by reading_of are no difference.
 std::vector<std::string> differences_from_paper(const StoredResult& run);
 
-/// The comparison as docs/reproduction.md shows it: GitHub Markdown, deterministic.
+/// The comparison as the table of docs/reproduction.md: GitHub Markdown, deterministic.
 std::string to_markdown(const Comparison& comparison);
 
 }  // namespace tunica::verification

@@ -95,10 +95,10 @@ Reading read_reading(const StoredResult& run) {
 }
 
 std::string to_text(const Reading& reading, bool with_activation, bool with_exponent) {
-  std::string text = fmt::format("{}, tether {}", reading.tier, reading.tether);
+  std::string text = fmt::format("{}, tether\u00a0{}", reading.tier, reading.tether);
   if (with_activation && !std::isnan(reading.activation_squared))
-    text += fmt::format(", a² = {:.4f}", reading.activation_squared);
-  if (with_exponent && reading.exponent > 0) text += fmt::format(", exponent {}", reading.exponent);
+    text += fmt::format(", a²\u00a0=\u00a0{:.4f}", reading.activation_squared);
+  if (with_exponent && reading.exponent > 0) text += fmt::format(", exponent\u00a0{}", reading.exponent);
   return text;
 }
 

@@ -151,7 +151,9 @@
     const parent = document.getElementById("sensitivity-charts");
     const select = document.getElementById("quantity");
     const withThem = runs.map((run, index) => ({run, index})).filter(entry => entry.run.sensitivities);
-    const quantities = [...new Set(withThem.flatMap(({run}) => Object.keys(run.sensitivities.quantities)))];
+    const order = Object.keys(withThem[0]?.run.columns || {});
+    const quantities = [...new Set(withThem.flatMap(({run}) => Object.keys(run.sensitivities.quantities)))]
+      .sort((a, b) => (b === "pressure") - (a === "pressure") || order.indexOf(a) - order.indexOf(b));
     if (!withThem.length) return;
     section.hidden = false;
     const keys = [...new Set(withThem.flatMap(({run}) => Object.values(run.sensitivities.quantities).flatMap(Object.keys)))].sort();

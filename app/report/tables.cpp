@@ -81,13 +81,14 @@ std::string verdict_counts(const std::vector<ClaimRow>& rows) {
 }
 
 std::string claim_cells(const ClaimRow& row, std::size_t span) {
-  const std::string tolerance =
-      row.tolerance.empty() ? "" : fmt::format("<br><small>{}</small>", escape(row.tolerance));
+  const auto small = [](const std::string& text) {
+    return text.empty() ? text : fmt::format("<br><small>{}</small>", escape(text));
+  };
   return fmt::format(
-      "<th scope=\"rowgroup\" rowspan=\"{0}\">{1}<br><small>{2} · {3}</small></th>"
-      "<td class=\"paper\" rowspan=\"{0}\">{4}{5}</td>",
-      span, escape(row.quantity), escape(row.where), escape(row.law),
-      row.paper.empty() ? "in words" : escape(row.paper), tolerance);
+      "<th scope=\"rowgroup\" rowspan=\"{0}\">{1}<br><small>{2} · {3}</small>{4}</th>"
+      "<td class=\"paper\" rowspan=\"{0}\">{5}{6}</td>",
+      span, escape(row.quantity), escape(row.where), escape(row.law), small(row.about),
+      row.paper.empty() ? "in words" : escape(row.paper), small(row.tolerance));
 }
 
 }  // namespace

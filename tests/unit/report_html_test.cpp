@@ -46,7 +46,7 @@ TEST(ReportSummary, LabelsTellRunsApart) {
   EXPECT_EQ(labels({run("a", "EXP1", "normal"), run("a", "EXP2", "normal")}), (Labels{"EXP1", "EXP2"}));
   EXPECT_EQ(labels({run("a", "EXP1", "normal"), run("b", "EXP1", "normal")}), (Labels{"EXP1, a", "EXP1, b"}));
   EXPECT_EQ(labels({run("a", "EXP1", "normal"), run("a", "EXP1", "current")}),
-            (Labels{"EXP1, lumped, tether normal", "EXP1, lumped, tether current"}));
+            (Labels{"EXP1, lumped, tether\u00a0normal", "EXP1, lumped, tether\u00a0current"}));
   EXPECT_EQ(labels({run("a", "EXP1", "normal"), run("a", "EXP1", "normal")}),
             (Labels{"EXP1, results/a-EXP1 (1)", "EXP1, results/a-EXP1 (2)"}));
 }
