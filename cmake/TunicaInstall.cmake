@@ -13,8 +13,8 @@ install(FILES ${PROJECT_BINARY_DIR}/tunicaConfig.cmake ${PROJECT_BINARY_DIR}/tun
         DESTINATION ${package_folder})
 install(EXPORT tunicaTargets NAMESPACE tunica:: DESTINATION ${package_folder})
 
-if(TARGET tunica)
-  install(TARGETS tunica RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-endif()
+install(TARGETS tunica RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/tunica)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+# The program holds uPlot, for its reports.
+install(FILES ${PROJECT_SOURCE_DIR}/third_party/uplot/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR}/uplot)

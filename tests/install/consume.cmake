@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Installs BUILD, moves the prefix, and configures, builds and runs CONSUMER against it in WORK.
+# Installs BUILD, moves the prefix, asks the program there for its scenes, and configures, builds and runs
+# CONSUMER against it, all in WORK.
 
 function(run)
   execute_process(COMMAND ${ARGV} COMMAND_ERROR_IS_FATAL ANY)
@@ -19,6 +20,11 @@ foreach(file IN LISTS package_files)
     endif()
   endforeach()
 endforeach()
+
+execute_process(COMMAND ${WORK}/prefix/bin/tunica scene --list OUTPUT_VARIABLE scenes COMMAND_ERROR_IS_FATAL ANY)
+if(NOT scenes MATCHES "${WORK}/prefix/share/tunica/scenes/cylinder.toml")
+  message(FATAL_ERROR "The installed program lists other scenes than those beside it:\n${scenes}")
+endif()
 
 run(${CMAKE_COMMAND} -S ${CONSUMER} -B ${WORK}/build -DCMAKE_PREFIX_PATH=${WORK}/prefix
     -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_CXX_FLAGS=${FLAGS})
