@@ -14,8 +14,10 @@ NUMBER = re.compile(r"(?<![\w.])-?\d+(?:\.\d+)?(?!\w)")
 
 def main():
     source, build, folder = sys.argv[1:]
+    os.makedirs(folder, exist_ok=True)
     made = os.path.join(folder, "reproduction.md")
-    subprocess.run([os.path.join(source, "tools", "reproduce"), made, build], check=True)
+    subprocess.run([os.path.join(source, "tools", "reproduce"), made, build,
+                    os.path.join(folder, "results")], check=True)
     with open(made, encoding="utf-8") as file:
         ours = file.read()
     with open(os.path.join(source, "docs", "reproduction.md"), encoding="utf-8") as file:
