@@ -140,6 +140,9 @@ void Integrator::start(double time, double end_time, const std::vector<double>& 
     self.check(CVodeSVtolerances(memory, self.tolerance, self.absolute.get()), "CVodeSVtolerances");
     self.check(CVodeSetLinearSolver(memory, self.solver.get(), self.matrix.get()), "CVodeSetLinearSolver");
     self.check(CVodeSetMaxNumSteps(memory, most_steps), "CVodeSetMaxNumSteps");
+    // BDF above order 2 is unstable near the imaginary axis, where weakly damped oscillations lie: the
+    // step would have to follow each of them.
+    if (self.system.oscillates) self.check(CVodeSetMaxOrd(memory, 2), "CVodeSetMaxOrd");
     if (self.system.events > 0)
       self.check(CVodeRootInit(memory, self.system.events, &Implementation::events), "CVodeRootInit");
     self.check(CVodeSetNoInactiveRootWarn(memory), "CVodeSetNoInactiveRootWarn");

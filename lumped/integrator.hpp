@@ -12,6 +12,7 @@ namespace tunica::lumped {
 struct System {
   int unknowns = 0;
   int bandwidth = 0;
+  bool oscillates = false;     ///< has weakly damped oscillations faster than what is of interest
   std::vector<double> scales;  ///< magnitude of each unknown, for absolute tolerances
   std::function<void(double t, const double* y, double* rate)> rate;
   /// Derivative of f along dy plus, for k >= 0, along parameter k.

@@ -187,6 +187,9 @@ class LumpedRun final : public TierRun {
     s.unknowns = network_.unknowns();
     s.bandwidth = network_.bandwidth();
     s.scales = network_.scales();
+    // Waves run to and fro between compartments; a single one is damped by its outlet.
+    s.oscillates = scene_.flag("lumped.inertance") &&
+                   (scene_.integer("lumped.compartments") > 1 || network_.inlet().is_pressure);
     s.rate = [this](double t, const double* y, double* rate) { network_.rate(t, y, rate); };
     s.rate_derivative = [this](double t, const double* y, const double* dy, int k, double* result) {
       network_.rate_derivative(t, y, dy, k, result);
