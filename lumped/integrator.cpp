@@ -42,6 +42,7 @@ struct Integrator::Implementation {
   System system;
   std::vector<Sensitivity> carried;
   double tolerance;
+  SensitivityErrors errors;
 
   sundials::Context context;
   std::unique_ptr<void, FreeMemory> memory;
@@ -103,12 +104,14 @@ struct Integrator::Implementation {
   }
 };
 
-Integrator::Integrator(System system, std::vector<Sensitivity> sensitivities, double tolerance)
+Integrator::Integrator(System system, std::vector<Sensitivity> sensitivities, double tolerance,
+                       SensitivityErrors errors)
     : implementation_(std::make_unique<Implementation>()) {
   auto& self = *implementation_;
   self.system = std::move(system);
   self.carried = std::move(sensitivities);
   self.tolerance = tolerance;
+  self.errors = errors;
   const int n = self.system.unknowns;
   self.state.reset(N_VNew_Serial(n, self.context));
   self.absolute.reset(N_VNew_Serial(n, self.context));
@@ -167,7 +170,8 @@ void Integrator::start(double time, double end_time, const std::vector<double>& 
               absolute_share * self.tolerance * self.system.scales[i] * self.carried[k].size;
       self.check(CVodeSensSVtolerances(memory, self.tolerance, self.sensitivity_absolute),
                  "CVodeSensSVtolerances");
-      self.check(CVodeSetSensErrCon(memory, SUNTRUE), "CVodeSetSensErrCon");
+      self.check(CVodeSetSensErrCon(memory, self.errors == SensitivityErrors::controlled),
+                 "CVodeSetSensErrCon");
     } else {
       self.check(CVodeSensReInit(memory, CV_STAGGERED, self.sensitivities), "CVodeSensReInit");
     }

@@ -43,8 +43,11 @@ struct IntegratorStatistics {
 /// Variable-order, variable-step BDF of CVODES with staggered forward sensitivities and root finding.
 class Integrator {
  public:
-  /// `tolerance` is relative and local, that is, per step.
-  Integrator(System system, std::vector<Sensitivity> sensitivities, double tolerance);
+  /// `tolerance` is relative and local, that is, per step. Sensitivities take part in the control of
+  /// the step, or follow the steps that suit the state.
+  enum class SensitivityErrors { controlled, followed };
+  Integrator(System system, std::vector<Sensitivity> sensitivities, double tolerance,
+             SensitivityErrors errors = SensitivityErrors::controlled);
   ~Integrator();
   Integrator(Integrator&&) noexcept;
   Integrator& operator=(Integrator&&) noexcept;

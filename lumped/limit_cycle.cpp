@@ -35,14 +35,15 @@ LimitCycle find_limit_cycle(const System& given, const std::vector<double>& gues
     add(cycle.statistics, integrator.statistics());
   }
 
-  std::vector<Sensitivity> carried(n, Sensitivity{-1, 1.0});
-  carried.insert(carried.end(), parameters.begin(), parameters.end());
-  std::vector<std::vector<double>> identity(carried.size(), std::vector<double>(n, 0.0));
+  // Newton's method needs the monodromy matrix roughly. Steps that follow the state blur waves that
+  // only the unit perturbations excite; to resolve those would cost a thousand times the state itself.
+  const std::vector<Sensitivity> perturbations(n, Sensitivity{-1, 1.0});
+  std::vector<std::vector<double>> identity(n, std::vector<double>(n, 0.0));
   for (int i = 0; i < n; ++i) identity[i][i] = system.scales[i];
 
   constexpr int most_iterations = 20;
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
-    Integrator integrator(system, carried, tolerance);
+    Integrator integrator(system, perturbations, tolerance, Integrator::SensitivityErrors::followed);
     integrator.start(0, period, cycle.state, identity);
     integrator.advance(period);
     add(cycle.statistics, integrator.statistics());
@@ -59,8 +60,13 @@ LimitCycle find_limit_cycle(const System& given, const std::vector<double>& gues
     const Eigen::PartialPivLU<Eigen::MatrixXd> factor(map);
     // The period map is known to about ten local errors; closer than that Newton cannot come.
     if (size < 10 * tolerance) {
+      if (parameters.empty()) return cycle;
+      Integrator forced(system, parameters, tolerance);
+      forced.start(0, period, cycle.state, std::vector(parameters.size(), std::vector<double>(n, 0.0)));
+      forced.advance(period);
+      add(cycle.statistics, forced.statistics());
       for (std::size_t k = 0; k < parameters.size(); ++k) {
-        const Eigen::Map<const Eigen::VectorXd> forcing(integrator.sensitivity(n + static_cast<int>(k)), n);
+        const Eigen::Map<const Eigen::VectorXd> forcing(forced.sensitivity(static_cast<int>(k)), n);
         const Eigen::VectorXd derivative = factor.solve(forcing);
         cycle.derivatives.emplace_back(derivative.begin(), derivative.end());
       }
