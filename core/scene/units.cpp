@@ -154,8 +154,11 @@ double convert_quantity(std::string_view text, const std::string& target_unit, s
     throw InvalidInput(fmt::format("{}: a number in quotes needs a unit; {}", complaint, remedy));
   }
   if (ratio && unit == "%") return value / 100;
-  // UDUNITS would multiply: "1 000 cm" is no thousand centimetres but nothing.
-  if (std::string_view("0123456789+-.,_").find(unit.front()) != std::string_view::npos)
+  // UDUNITS would multiply: "1 000 cm" is no thousand centimetres but nothing. And its scanner echoes
+  // control characters to the standard output.
+  const bool begins_like_number =
+      std::string_view("0123456789+-.,_").find(unit.front()) != std::string_view::npos;
+  if (begins_like_number || one_line(unit) != unit)
     throw InvalidInput(fmt::format("{}: not one number with a unit; {}", complaint, remedy));
   const double converted = value * unit_factor(unit, target_unit, complaint);
   if (!std::isfinite(converted))

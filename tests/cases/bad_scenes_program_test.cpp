@@ -35,7 +35,8 @@ TEST_P(BadScenesInProgram, EndWithCodeTwoOneLineAndNoResults) {
   std::string command = "cd " + shell_quoted(work_.path()) + " && " + shell_quoted(TUNICA_PROGRAM) + " run " +
                         shell_quoted(scene) + " --out results";
   for (const std::string& text : GetParam().overrides) command += " --set " + shell_quoted(text);
-  command += " >/dev/null 2>" + shell_quoted(errors);
+  const fs::path output = scenes_.path() / "stdout.txt";
+  command += " >" + shell_quoted(output) + " 2>" + shell_quoted(errors);
 
   const int status = std::system(command.c_str());
   ASSERT_TRUE(WIFEXITED(status));
@@ -45,6 +46,7 @@ TEST_P(BadScenesInProgram, EndWithCodeTwoOneLineAndNoResults) {
   EXPECT_TRUE(message.ends_with('\n')) << message;
   for (const std::string& word : GetParam().words)
     EXPECT_NE(message.find(word), std::string::npos) << "'" << word << "' is not in: " << message;
+  EXPECT_EQ(test_support::read_text(output), "");
   EXPECT_TRUE(fs::is_empty(work_.path())) << "something was written";
 }
 
