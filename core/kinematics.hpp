@@ -23,6 +23,7 @@ S volume_change(const Tensor<S>& gradient) {
 /// What the laws need of a deformation, computed from the displacement gradient H = F - I.
 template <class S>
 struct Kinematics {
+  Tensor<S> displacement_gradient;     ///< H = F - I
   Tensor<S> deformation_gradient;      ///< F
   Tensor<S> deformation_cofactor;      ///< cof F = J F^-T
   Tensor<S> left_cauchy_green_change;  ///< b - I = H + H^T + H H^T
@@ -32,7 +33,8 @@ struct Kinematics {
   S isochoric_factor_change;           ///< J^(-2/3) - 1, the same power in every frame
   S isochoric_factor;                  ///< J^(-2/3)
 
-  explicit Kinematics(const Tensor<S>& gradient) : deformation_gradient(Tensor<S>::identity() + gradient) {
+  explicit Kinematics(const Tensor<S>& gradient)
+      : displacement_gradient(gradient), deformation_gradient(Tensor<S>::identity() + gradient) {
     using std::expm1;
     using std::log1p;
     const Tensor<S> transposed = transpose(gradient);

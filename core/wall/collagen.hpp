@@ -45,19 +45,37 @@ struct CollagenFamily {
     return a0;
   }
 
-  /// I4bar - a^2 = J^(-2/3) |F a0|^2 - a^2
+  template <class S>
+  struct Deformed {
+    Vector<S> fiber;  ///< a = F a0
+    S excess;         ///< x = I4bar - a^2
+  };
+
+  /// I4bar - a^2 = J^(-2/3) |F a0|^2 - a^2, computed from |F a0|^2 - 1 = (a + a0) . H a0 so that it
+  /// keeps its relative accuracy at small strain for fibres that are recruited from rest.
+  template <class S>
+  Deformed<S> deformed(const Kinematics<S>& k, const MaterialAxes& axes) const {
+    const Vector<P> a0 = direction(axes);
+    const Vector<S> change = k.displacement_gradient * a0;
+    Vector<S> a, sum;
+    for (int i = 0; i < 3; ++i) {
+      a[i] = change[i] + a0[i];
+      sum[i] = a[i] + a0[i];
+    }
+    return {a,
+            k.isochoric_factor * dot(sum, change) + k.isochoric_factor_change + (1.0 - activation_squared)};
+  }
+
   template <class S>
   S excess(const Kinematics<S>& k, const MaterialAxes& axes) const {
-    const Vector<S> a = k.deformation_gradient * direction(axes);
-    return k.isochoric_factor * dot(a, a) - activation_squared;
+    return deformed(k, axes).excess;
   }
 
   /// Kirchhoff stress H(x) 2 W'(x) J^(-2/3) dev(a x a), a = F a0, without the deviator:
   /// the caller takes it once for all terms.
   template <class S>
   Tensor<S> kirchhoff_before_deviator(const Kinematics<S>& k, const MaterialAxes& axes) const {
-    const Vector<S> a = k.deformation_gradient * direction(axes);
-    const S x = k.isochoric_factor * dot(a, a) - activation_squared;
+    const auto [a, x] = deformed(k, axes);
     const S slope = energy(seed(x)).derivative[0];
     return (2.0 * recruitment.share(x) * slope * k.isochoric_factor) * outer(a, a);
   }
@@ -91,8 +109,11 @@ FiberState<S> fiber_state(const CollagenFamily<S>& family, const Tensor<S>& disp
   const Vector<S> fiber = k.deformation_gradient * family.direction(axes);
   const Vector<S> ring = k.deformation_gradient * axes.circumferential;
   const Vector<S> normal = cross(fiber, ring);
+  // Along the circumference the angle is a flat zero, but the root's slope is infinite.
+  const S sine_squared = dot(normal, normal);
+  const S sine = plain(sine_squared) > 0 ? S(sqrt(sine_squared)) : S(0.0);
   return {S(sqrt(k.isochoric_factor * dot(fiber, fiber))), family.recruitment.share(family.excess(k, axes)),
-          S(atan2(S(sqrt(dot(normal, normal))), S(abs(dot(fiber, ring)))))};
+          S(atan2(sine, S(abs(dot(fiber, ring)))))};
 }
 
 }  // namespace tunica::wall
