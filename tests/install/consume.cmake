@@ -26,7 +26,7 @@ if(NOT scenes MATCHES "${WORK}/prefix/share/tunica/scenes/cylinder.toml")
   message(FATAL_ERROR "The installed program lists other scenes than those beside it:\n${scenes}")
 endif()
 
-run(${CMAKE_COMMAND} -S ${CONSUMER} -B ${WORK}/build -DCMAKE_PREFIX_PATH=${WORK}/prefix
+run(${CMAKE_COMMAND} -G ${GENERATOR} -S ${CONSUMER} -B ${WORK}/build -DCMAKE_PREFIX_PATH=${WORK}/prefix
     -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_CXX_FLAGS=${FLAGS})
 run(${CMAKE_COMMAND} --build ${WORK}/build)
 run(${WORK}/build/consumer)
