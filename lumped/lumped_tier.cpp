@@ -12,6 +12,8 @@
 #include "lumped/limit_cycle.hpp"
 #include "lumped/network.hpp"
 #include "lumped/observer.hpp"
+#include "lumped/stops.hpp"
+#include "lumped/wall_fields.hpp"
 
 namespace tunica::lumped {
 
@@ -26,28 +28,6 @@ double seconds_since(Clock::time_point start) {
 /// steps, hence the factor; looser than the upper end the 0D tier would save nothing that can be felt.
 double local_tolerance(double scene_tolerance) {
   return std::clamp(0.01 * scene_tolerance, 1e-11, 1e-8);
-}
-
-/// A moment at which the run stops to look.
-struct Stop {
-  double time;
-  bool is_row;      ///< a row of observables.csv
-  bool is_profile;  ///< a profile through the wall
-};
-
-std::vector<Stop> stops(const Scene& scene, double period) {
-  const double interval = scene.number("output.interval");
-  const auto beats = static_cast<double>(scene.integer("time.beats"));
-  const double end = beats * period;
-  std::vector<Stop> all;
-  const auto rows = static_cast<long>(std::floor(end / interval * (1 + 1e-12)));
-  for (long k = 0; k <= rows; ++k)
-    all.push_back({std::min(static_cast<double>(k) * interval, end), true, false});
-  if (end - all.back().time > 1e-9 * interval) all.push_back({end, true, false});
-  for (const double within : scene.numbers("output.profile_times"))
-    all.push_back({(beats - 1) * period + within, false, true});
-  std::stable_sort(all.begin(), all.end(), [](const Stop& a, const Stop& b) { return a.time < b.time; });
-  return all;
 }
 
 /// When fibres at a place were recruited and released during the last beat, in order.
@@ -82,6 +62,7 @@ class LumpedRun final : public TierRun {
         parameters_(scene.texts("sensitivity.parameters")),
         network_(scene, parameters_),
         observer_(network_, parameters_),
+        wall_fields_(network_.curve().model(), scene.number("geometry.length")),
         stops_(stops(scene, network_.inlet().period)),
         tolerance_(local_tolerance(scene.number("accuracy.tolerance"))) {
     check_profile_times();
@@ -98,7 +79,7 @@ class LumpedRun final : public TierRun {
     } catch (const SolverFailure& failure) {
       const double period = network_.inlet().period;
       result_.record.failure = fmt::format("at t = {:.6g} s (beat {}): {}", time_,
-                                           1 + static_cast<int>(time_ / period), failure.what());
+                                           1 + static_cast<int>(time_ / period), reason(failure));
     }
     result_.record.solve_seconds = seconds_since(solving);
     return std::move(result_);
@@ -115,7 +96,8 @@ class LumpedRun final : public TierRun {
 
   void prepare_tables() {
     result_.observables = observables::standard_table();
-    result_.profiles = observer_.profile_table();
+    result_.profiles = observables::profile_table();
+    if (scene_.number("output.field_interval") > 0) result_.fields.push_back(wall_fields_.empty_series());
     result_.sensitivities = observer_.sensitivity_table();
     auto& events = result_.events;
     events.add("time", "s");
@@ -146,6 +128,23 @@ class LumpedRun final : public TierRun {
     if (scene_.text("geometry.kind") == "torus")
       record.remarks.emplace_back(
           "0D tier: the bend is not modelled, the torus is computed as a straight artery of its length");
+  }
+
+  /// What the solver said, preceded by the physical reason where it is that the wall cannot carry the
+  /// pressure that the inflow asks for at the outlet's resistance.
+  std::string reason(const SolverFailure& failure) const {
+    if (network_.inlet().is_pressure) return failure.what();
+    constexpr double mmhg = 1333.22387;
+    const auto carried = network_.curve().greatest_pressure();
+    const double asked = scene_.number("outlet.pressure") + scene_.number("outlet.resistance") *
+                                                                network_.inlet_scale() *
+                                                                network_.inlet().shape_at(time_);
+    if (asked <= carried.pressure) return failure.what();
+    return fmt::format(
+        "the wall has no equilibrium at {:.4g} mmHg, the pressure that the inflow asks for: it carries at "
+        "most {:.4g} mmHg, "
+        "at lumen stretch {:.4g} ({})",
+        asked / mmhg, carried.pressure / mmhg, carried.stretch, failure.what());
   }
 
   /// Tabulates the stretches that the run will see, estimated from the outlet's resistance, so that the
@@ -252,6 +251,7 @@ class LumpedRun final : public TierRun {
         observer_.append_sensitivities(stop.time, y, sensitivities(integrator), result_.sensitivities);
     }
     if (stop.is_profile) observer_.append_profile(stop.time, y, result_.profiles);
+    if (stop.is_field) wall_fields_.append(stop.time, network_.mid_stretch(y), result_.fields.front());
   }
 
   std::vector<const double*> sensitivities(const Integrator& integrator) const {
@@ -331,6 +331,7 @@ class LumpedRun final : public TierRun {
   std::vector<std::string> parameters_;
   Network network_;
   Observer observer_;
+  WallFields wall_fields_;
   std::vector<Stop> stops_;
   double tolerance_;
   double time_ = 0;

@@ -293,6 +293,22 @@ void WallCurve::prepare(double from, double to) const {
   }
 }
 
+WallCurve::Equilibrium WallCurve::greatest_pressure() const {
+  Equilibrium greatest{1.0, pressure(1.0)};
+  constexpr int samples = 16;
+  for (const Cell& cell : cells_) {
+    for (const Piece& piece : cell.pieces) {
+      for (int k = 0; k <= samples; ++k) {
+        const double stretch = piece.lower + (piece.upper - piece.lower) * k / samples;
+        if (stretch >= greatest_stretch) continue;
+        const double p = pressure(stretch);
+        if (p > greatest.pressure) greatest = {stretch, p};
+      }
+    }
+  }
+  return greatest;
+}
+
 double WallCurve::stretch_at(double target) const {
   const auto gap = [&](double stretch) { return pressure(stretch) - target; };
   // The nearest equilibrium to rest on the side that the pressure pushes to.

@@ -52,6 +52,13 @@ class WallCurve {
   /// The lumen stretch in equilibrium with a pressure. Throws SolverFailure when there is none.
   double stretch_at(double pressure) const;
 
+  /// A lumen stretch and the pressure that it takes, dyn/cm2.
+  struct Equilibrium {
+    double stretch, pressure;
+  };
+  /// The equilibrium of greatest pressure among the stretches tabulated so far.
+  Equilibrium greatest_pressure() const;
+
   /// Makes the pieces between two stretches, so that later queries only evaluate.
   void prepare(double from, double to) const;
 
