@@ -3,6 +3,7 @@
 #include <benchmark/benchmark.h>
 
 #include <array>
+#include <string>
 
 #include "core/frame.hpp"
 #include "core/wall/catalog.hpp"

@@ -28,7 +28,7 @@ std::string test_name(std::string_view law, int exponent) {
 
 }  // namespace
 
-LawCase law_case(std::string_view law, std::vector<std::string> overrides) {
+LawCase law_case(std::string_view law, const std::vector<std::string>& overrides) {
   return made(test_name(law, 0), law, overrides);
 }
 
@@ -54,6 +54,12 @@ std::vector<LawCase> law_cases() {
 std::vector<LawCase> fiber_law_cases() {
   std::vector<LawCase> cases = law_cases();
   std::erase_if(cases, [](const LawCase& law) { return !law.entry->has_fibers; });
+  return cases;
+}
+
+std::vector<LawCase> isotropic_law_cases() {
+  std::vector<LawCase> cases = law_cases();
+  std::erase_if(cases, [](const LawCase& law) { return law.entry->has_fibers; });
   return cases;
 }
 

@@ -27,13 +27,14 @@ inline std::ostream& operator<<(std::ostream& out, const LawCase& law) {
 }
 
 /// The law by name with its own parameters; overrides are of the form "wall.sharpness=100".
-LawCase law_case(std::string_view law, std::vector<std::string> overrides = {});
+LawCase law_case(std::string_view law, const std::vector<std::string>& overrides = {});
 
 /// Every law of the catalog, those with fibres once with exponent 2 and once with 1. A law that is added
 /// to the catalog gets all tests that are instantiated with these.
 std::vector<LawCase> law_cases();
-/// Those with fibres.
+/// Those with fibres, and those without.
 std::vector<LawCase> fiber_law_cases();
+std::vector<LawCase> isotropic_law_cases();
 /// The same law with other recruitment: "sharp", or "smooth" of this sharpness.
 LawCase with_recruitment(const LawCase& law, const std::string& recruitment, double sharpness = 5e5);
 

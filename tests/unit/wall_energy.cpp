@@ -72,7 +72,8 @@ TEST_P(WallEnergy, StressIsTheClosedForm) {
 }
 
 TEST_P(WallEnergy, ClosedFormIsTheDifferenceQuotientOfThePrintedEnergy) {
-  const auto& [name, entry, exponent, law, reference] = GetParam();
+  const auto& law = GetParam().law;
+  const ReferenceLaw& reference = GetParam().reference;
   RandomDeformation random;
   SCOPED_TRACE(random.origin());
   for (int sample = 0; sample < 10; ++sample) {

@@ -44,8 +44,6 @@ Tensor<double> linear_stress(const LawCase& law, const Tensor<double>& H, const 
 }
 
 TEST_P(WallSmallStrain, StressIsThatOfLinearElasticityWithTheLawsModuli) {
-  if (GetParam().exponent == 1 && !GetParam().entry->has_activation)
-    GTEST_SKIP() << "fibres of exponent 1 that are recruited at rest are stressed at rest";
   // Smooth recruitment leaves the arctangent's tail at rest, far above stresses of 1e-7 dyn/cm2.
   const LawCase law = GetParam().entry->has_fibers ? with_recruitment(GetParam(), "sharp") : GetParam();
   RandomDeformation random;
@@ -105,7 +103,15 @@ TEST(WallVolumetric, PressureIsAccurateFromTinyToLargeVolumeChange) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Catalog, WallSmallStrain, testing::ValuesIn(law_cases()), case_name);
+/// Fibres of exponent 1 that are recruited at rest are stressed at rest: no linear elasticity there.
+std::vector<LawCase> cases_free_of_stress_at_rest() {
+  std::vector<LawCase> cases = law_cases();
+  std::erase_if(cases, [](const LawCase& law) { return law.exponent == 1 && !law.entry->has_activation; });
+  return cases;
+}
+
+INSTANTIATE_TEST_SUITE_P(Catalog, WallSmallStrain, testing::ValuesIn(cases_free_of_stress_at_rest()),
+                         case_name);
 
 }  // namespace
 }  // namespace tunica::test_support

@@ -57,7 +57,8 @@ TEST_P(WallTangent, WhatALinearStepLeavesFallsWithTheSquareOfTheStep) {
 }
 
 TEST_P(WallTangent, IsTheDerivativeOfTheReferenceStress) {
-  const auto& [name, entry, exponent, law, reference] = GetParam();
+  const auto& law = GetParam().law;
+  const ReferenceLaw& reference = GetParam().reference;
   RandomDeformation random;
   SCOPED_TRACE(random.origin());
   for (int sample = 0; sample < 20;) {
