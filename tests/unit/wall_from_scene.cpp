@@ -155,8 +155,9 @@ std::ostream& operator<<(std::ostream& out, const ParameterCase& c) {
 class ParameterDerivative : public testing::TestWithParam<ParameterCase> {};
 
 TEST_P(ParameterDerivative, OfTheStressIsThatOfDifferences) {
-  const auto& [law, parameter, value] = GetParam();
-  const std::string text = std::string("[wall]\nlaw = \"") + law + "\"\n";
+  const std::string law = GetParam().law, parameter = GetParam().parameter;
+  const double value = GetParam().value;
+  const std::string text = "[wall]\nlaw = \"" + law + "\"\n";
   // A sharpness of 100 lets the parameter act through the recruited share too.
   const bool has_fibers = wall::find_law(law)->has_fibers;
   const std::vector<std::string> base =
