@@ -7,6 +7,7 @@
 
 #include "core/frame.hpp"
 #include "core/radial/fronts.hpp"
+#include "lumped/wall_profile.hpp"
 
 namespace tunica::lumped {
 
@@ -133,53 +134,12 @@ void Observer::append_sensitivities(double time, const double* y,
   }
 }
 
-observables::Table Observer::profile_table() const {
-  observables::Table table;
-  for (const Quantity& quantity :
-       {Quantity{"time", "s"}, Quantity{"reference_radius", "cm"}, Quantity{"radial_displacement", "cm"},
-        Quantity{"radial_stretch", "1"}, Quantity{"circumferential_stretch", "1"},
-        Quantity{"volume_change", "1"}, Quantity{"fiber_stretch", "1"}, Quantity{"fiber_angle", "deg"},
-        Quantity{"recruitment", "1"}, Quantity{"radial_stress", "dyn/cm2"},
-        Quantity{"circumferential_stress", "dyn/cm2"}, Quantity{"axial_stress", "dyn/cm2"},
-        Quantity{"von_mises", "dyn/cm2"}})
-    table.add(quantity.name, quantity.unit);
-  return table;
-}
-
 void Observer::append_profile(double time, const double* y, observables::Table& table) const {
-  const auto& model = network_.curve().model();
-  const auto& ring = model.ring();
   std::vector<double> places;
   for (int k = 0; k < profile_points; ++k) places.push_back(static_cast<double>(k) / (profile_points - 1));
-  const auto response = model.respond(network_.mid_stretch(y), places, false);
-  const auto boundaries = radial::layer_boundaries(ring);
-  for (int k = 0; k < profile_points; ++k) {
-    const auto& state = response.states[k];
-    const double radius = ring.radius(places[k]);
-    const auto gradient = Radial::gradient(state.displacement, state.radial_slope, radius);
-    const auto& law = ring.layers[radial::layer_at(boundaries, places[k])].law;
-    // The law gives the stress up to the pressure that equilibrium adds to incompressible tissue: the
-    // radial stress, known either way, fixes it.
-    Tensor<double> cauchy = cauchy_stress(wall::piola(law, gradient, Radial::axes()), gradient);
-    const double correction = state.radial_stress - cauchy(0, 0);
-    wall::FiberState<double> fiber{observables::none, observables::none, observables::none};
-    const auto& families = wall::families(law);
-    if (!families.empty()) fiber = wall::fiber_state(families.front(), gradient, Radial::axes());
-    const double row[] = {time,
-                          radius,
-                          state.displacement,
-                          1 + state.radial_slope,
-                          1 + state.displacement / radius,
-                          volume_change(gradient),
-                          fiber.stretch,
-                          fiber.angle * degrees,
-                          fiber.recruitment,
-                          cauchy(0, 0) + correction,
-                          cauchy(1, 1) + correction,
-                          cauchy(2, 2) + correction,
-                          von_mises_stress(cauchy)};
-    std::size_t column = 0;
-    for (const double value : row) table[column++].values.push_back(value);
+  for (auto& point : wall_profile(network_.curve().model(), network_.mid_stretch(y), places)) {
+    point.time = time;
+    observables::append(table, point);
   }
 }
 

@@ -23,7 +23,6 @@ class Observer {
   void append_profile(double time, const double* y, observables::Table& table) const;
 
   observables::Table sensitivity_table() const;
-  observables::Table profile_table() const;
 
   /// "d(pressure)/d(outlet.resistance)" and its unit.
   std::string derivative_name(std::string_view quantity, std::size_t k) const;

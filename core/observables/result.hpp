@@ -9,6 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/observables/field_series.hpp"
 #include "core/observables/table.hpp"
 #include "core/scene/scene.hpp"
 
@@ -42,6 +43,7 @@ struct Result {
                                            ///< d(time)/d(key); likewise
   observables::Table recruited_time;       ///< recruited_time.csv: point, family[1], recruited_time[s] in the
                                            ///< last beat, then its sensitivities; none without fibres
+  std::vector<observables::FieldSeries> fields;  ///< fields/NAME.xdmf, for viewers; none when not asked for
   RunRecord record;
 };
 
@@ -49,7 +51,7 @@ struct Result {
 struct StoredResult {
   std::filesystem::path folder;
   nlohmann::ordered_json record;  ///< record.json
-  Result result;                  ///< tables only; result.record is not filled
+  Result result;                  ///< tables only; fields and record of it are not filled
 };
 
 namespace observables {
@@ -132,8 +134,9 @@ void make_result_folder(const std::filesystem::path& folder);
 
 /// Writes the result into a folder (made when missing): each file is written aside and renamed, so a
 /// reader never sees half a file. record.json is taken away first and written last: where it is, the
-/// files beside it belong to it. Tables without columns have no file, and a file of an earlier run is
-/// removed. Throws OutputFailure naming the path and the system's reason.
+/// files beside it belong to it. Tables without columns and series of fields without times have no file,
+/// and files of an earlier run are removed: there all of fields/*.xdmf. Throws OutputFailure naming the path
+/// and the system's reason.
 void write_result(const std::filesystem::path& folder, const Scene& scene, const Result& result);
 
 /// Reads a folder written by write_result. Throws InvalidInput when something is missing or broken.

@@ -32,6 +32,8 @@ constexpr TableFile table_files[] = {{"observables.csv", &Result::observables},
                                      {"event_sensitivities.csv", &Result::event_sensitivities},
                                      {"recruited_time.csv", &Result::recruited_time}};
 constexpr const char* record_file = "record.json";
+constexpr const char* fields_folder = "fields";
+constexpr const char* fields_extension = ".xdmf";
 
 [[noreturn]] void fail(const fs::path& path, const char* what, int error) {
   throw OutputFailure(fmt::format("{}: {}: {}", path.string(), what, std::strerror(error)));
@@ -74,6 +76,30 @@ void remove_file(const fs::path& file) {
   std::error_code error;
   fs::remove(file, error);
   if (error) fail(file, "cannot be removed", error.value());
+}
+
+void remove_leftovers(const fs::path& folder) {
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error))
+    if (is_leftover(entry.path())) remove_file(entry.path());
+}
+
+/// A viewer opens whatever lies here, so that nothing of an earlier run may stay.
+void write_fields(const fs::path& folder, const std::vector<observables::FieldSeries>& fields) {
+  std::error_code error;
+  if (fs::is_directory(folder)) {
+    remove_leftovers(folder);
+    for (const auto& entry : fs::directory_iterator(folder, error))
+      if (entry.path().extension() == fields_extension) remove_file(entry.path());
+  }
+  for (const auto& series : fields) {
+    if (series.frames.empty()) continue;
+    fs::create_directory(folder, error);
+    if (error) fail(folder, "the folder for fields cannot be made", error.value());
+    write_whole(folder / (series.name + fields_extension), observables::to_xdmf(series));
+  }
+  // What is not empty holds fields or something of the user's, and stays.
+  if (fs::is_directory(folder)) fs::remove(folder, error);
 }
 
 Json to_json(const scene::Value& value) {
@@ -152,9 +178,7 @@ void make_result_folder(const fs::path& folder) {
 void write_result(const fs::path& folder, const Scene& scene, const Result& result) {
   make_result_folder(folder);
   remove_file(folder / record_file);
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, error))
-    if (is_leftover(entry.path())) remove_file(entry.path());
+  remove_leftovers(folder);
   for (const TableFile& file : table_files) {
     const observables::Table& table = result.*file.table;
     if (table.columns().empty())
@@ -162,6 +186,7 @@ void write_result(const fs::path& folder, const Scene& scene, const Result& resu
     else
       write_whole(folder / file.name, observables::to_csv(table));
   }
+  write_fields(folder / fields_folder, result.fields);
   write_whole(folder / record_file, record_text(scene, result.record));
 }
 

@@ -16,6 +16,8 @@ namespace {
 
 /// Rows of observables.csv that still fit into memory and a plot (a few gigabytes of text).
 constexpr double most_rows = 5e6;
+/// Pictures in fields/ that still fit there (also a few gigabytes).
+constexpr double most_field_times = 1e5;
 
 /// A key of the same name elsewhere, rather below the same table: a layer's stiffness for the wall's.
 std::string same_name(std::string_view key, const std::vector<std::string>& keys) {
@@ -77,6 +79,14 @@ void SceneReader::check_times() const {
                "output.interval = {:g} s over time.beats x inlet.period = {:g} s makes {:.3g} rows, more "
                "than {:g}; increase it",
                interval, total, total / interval, most_rows));
+  const double field_interval = scene_.number("output.field_interval");
+  if (field_interval > 0 && total / field_interval > most_field_times)
+    refuse(
+        "output.field_interval",
+        fmt::format(
+            "output.field_interval = {:g} s over time.beats x inlet.period = {:g} s makes {:.3g} pictures, "
+            "more than {:g}; increase it, or write 0 for none",
+            field_interval, total, total / field_interval, most_field_times));
   for (const double time : scene_.numbers("output.profile_times"))
     if (time >= period)
       refuse("output.profile_times",

@@ -215,6 +215,9 @@ std::vector<Parameter> declare() {
                  {0.0, infinity, false, true},
                  {},
                  "Times within the last beat at which profiles through the wall are written."});
+  all.push_back(number("output.field_interval", "s", 0.05, from_zero(1000),
+                       "Time between the pictures in fields/, which ParaView shows as an animation. 0 leaves "
+                       "fields/ out."));
 
   all.push_back({"lumped.compartments",
                  Kind::integer,

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace tunica::observables {
+
+/// Shape of all cells of a mesh; its corners are in the order of VTK and XDMF.
+enum class CellShape { triangle, quadrilateral, tetrahedron, hexahedron };
+std::size_t corners(CellShape shape);
+
+/// Where fields are shown. Points may coincide: cells that share no point keep fields that jump between
+/// them, such as stress between two layers, apart.
+struct FieldMesh {
+  CellShape shape = CellShape::quadrilateral;
+  std::vector<std::array<double, 3>> points;  ///< cm, of the unloaded body
+  std::vector<int> cells;                     ///< indices of points, corners(shape) for each cell
+};
+
+/// One number per cell, the same at all times: a layer, a material.
+struct CellField {
+  std::string name;
+  std::string unit;
+  std::vector<int> values;
+};
+
+/// What each point has at each time.
+struct PointField {
+  std::string name;
+  std::string unit;            ///< as in the header of a table: "dyn/cm2", "1"
+  std::size_t components = 1;  ///< 1, or 3 for a vector (x, y, z)
+};
+
+/// Fields on a mesh that stays the same, at a sequence of times, for pictures: numbers are kept and written
+/// in single precision, some 7 digits. What is to be computed with further belongs into a table.
+struct FieldSeries {
+  struct Frame {
+    double time;                             ///< s
+    std::vector<std::vector<float>> values;  ///< [point field][component + components * point]; NaN for
+                                             ///< a quantity that the point has not
+  };
+  std::string name;  ///< of the file, without extension
+  FieldMesh mesh;
+  std::vector<CellField> cell_fields;
+  std::vector<PointField> point_fields;
+  std::vector<Frame> frames;  ///< times ascend
+};
+
+/// One self-contained XDMF 3 file, a temporal collection of uniform grids with all numbers inline. Mesh and
+/// cell fields stand in the first grid; the others include them by XInclude, which the readers of XDMF 2
+/// and of XDMF 3 in ParaView understand (a Reference attribute makes the latter abort). The XDMF 2 reader
+/// does not understand "nan" and loses the rest of that field.
+/// Throws std::logic_error when the numbers of values do not fit the mesh.
+std::string to_xdmf(const FieldSeries& series);
+
+}  // namespace tunica::observables

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "core/scene/scene.hpp"
+
+namespace tunica::lumped {
+
+/// A moment at which the run stops to look.
+struct Stop {
+  double time;              ///< s
+  bool is_row = false;      ///< a row of observables.csv
+  bool is_profile = false;  ///< a profile through the wall
+  bool is_field = false;    ///< the wall's cross-section for fields/
+};
+
+/// The stops of a scene with beats of `period` seconds, in order: rows every output.interval and fields
+/// every output.field_interval, both from 0 and at the end too, and output.profile_times in the last beat.
+std::vector<Stop> stops(const Scene& scene, double period);
+
+}  // namespace tunica::lumped
