@@ -354,11 +354,12 @@ CompressibleRing::Residual<P> CompressibleRing::residual(const Ring<P>& ring, co
   Residual<P> result{std::vector<P>(displacement.size(), P(0.0)), ring.tether_force(displacement.back())};
   for (std::size_t e = 0; e < solution.mesh.size(); ++e) {
     const Interval& cell = solution.mesh[e];
-    const double half = 0.5 * (cell.upper - cell.lower);
+    const MovingInterval<P> ends = moved_with_layers(ring, boundaries_, cell);
+    const P half = 0.5 * (ends.upper - ends.lower);
     const P half_width = half * ring.thickness;
     const std::size_t first = e * (n - 1);
     for (std::size_t q = 0; q < line_.rule().size(); ++q) {
-      const P radius = ring.radius(cell.lower + half * (1 + line_.rule()[q].position));
+      const P radius = ring.radius(P(ends.lower + half * (1 + line_.rule()[q].position)));
       P u(0.0), du(0.0);
       for (int k = 0; k < n; ++k) {
         u += line_.shape(q, k) * displacement[first + k];
@@ -383,8 +384,11 @@ WallState<P> CompressibleRing::state(const Ring<P>& ring, const Solution& soluti
                                      const std::vector<P>& displacement, double xi) const {
   const std::size_t e = interval_at(solution.mesh, xi);
   const Interval& cell = solution.mesh[e];
-  const double half = 0.5 * (cell.upper - cell.lower);
-  const double position = (xi - cell.lower) / half - 1;
+  const MovingInterval<P> ends = moved_with_layers(ring, boundaries_, cell);
+  const P half = 0.5 * (ends.upper - ends.lower);
+  // With the layers' shares the element passes by the place.
+  const P moving_position = (xi - ends.lower) / half - 1.0;
+  const double position = plain(moving_position);
   const int n = line_.nodes();
   std::vector<double> shapes(n), slopes(n);
   line_.shapes_at(position, shapes.data());
@@ -393,6 +397,21 @@ WallState<P> CompressibleRing::state(const Ring<P>& ring, const Solution& soluti
   for (int k = 0; k < n; ++k) {
     u += shapes[k] * displacement[e * (n - 1) + k];
     du += slopes[k] * displacement[e * (n - 1) + k];
+  }
+  if constexpr (!std::same_as<P, double>) {
+    if (const double speed = moving_position.derivative[0]; speed != 0) {
+      u.derivative[0] += du.value * speed;
+      // The second derivative, from the first at the nodes: both are polynomials of the element.
+      double curvature = 0;
+      std::vector<double> at_node(n);
+      for (int j = 0; j < n; ++j) {
+        line_.slopes_at(line_.node(j), at_node.data());
+        double slope = 0;
+        for (int k = 0; k < n; ++k) slope += at_node[k] * displacement[e * (n - 1) + k].value;
+        curvature += slope * slopes[j];
+      }
+      du.derivative[0] += curvature * speed;
+    }
   }
   du = du / (half * ring.thickness);
   return {u, du, P(0.0)};

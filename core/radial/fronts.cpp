@@ -48,18 +48,44 @@ bool same_front(const wall::CollagenFamily<double>& a, const wall::CollagenFamil
 
 }  // namespace
 
-std::vector<double> layer_boundaries(const Ring<double>& ring) {
-  double total = 0;
+template <class P>
+std::vector<P> layer_boundaries(const Ring<P>& ring) {
+  P total(0.0);
   for (const auto& layer : ring.layers) total += layer.share;
-  std::vector<double> boundaries{0.0};
-  double sum = 0;
+  std::vector<P> boundaries{P(0.0)};
+  P sum(0.0);
   for (const auto& layer : ring.layers) {
     sum += layer.share;
     boundaries.push_back(sum / total);
   }
-  boundaries.back() = 1.0;
+  boundaries.back() = P(1.0);
   return boundaries;
 }
+
+template std::vector<double> layer_boundaries(const Ring<double>&);
+template std::vector<Dual<double, 1>> layer_boundaries(const Ring<Dual<double, 1>>&);
+
+template <class P>
+MovingInterval<P> moved_with_layers(const Ring<P>& ring, const std::vector<double>& boundaries,
+                                    const Interval& cell) {
+  if constexpr (std::same_as<P, double>) {
+    return {cell.lower, cell.upper};
+  } else {
+    const std::vector<P> ends = layer_boundaries(ring);
+    const double lower = boundaries[cell.layer], width = boundaries[cell.layer + 1] - lower;
+    const P start = ends[cell.layer], extent = ends[cell.layer + 1] - start;
+    // The values are those of the interval to the last bit, only the derivatives are new.
+    const auto moved = [&](double xi) {
+      return P(xi, P(start + extent * ((xi - lower) / width)).derivative);
+    };
+    return {moved(cell.lower), moved(cell.upper)};
+  }
+}
+
+template MovingInterval<double> moved_with_layers(const Ring<double>&, const std::vector<double>&,
+                                                  const Interval&);
+template MovingInterval<Dual<double, 1>> moved_with_layers(const Ring<Dual<double, 1>>&,
+                                                           const std::vector<double>&, const Interval&);
 
 std::size_t layer_at(const std::vector<double>& boundaries, double xi) {
   std::size_t layer = 0;

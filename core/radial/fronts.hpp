@@ -18,8 +18,10 @@ struct Front {
   double tolerance;  ///< how far the element boundary may lie from the front
 };
 
-/// xi of the inner surface, the boundaries between layers and the outer surface.
-std::vector<double> layer_boundaries(const Ring<double>& ring);
+/// xi of the inner surface, the boundaries between layers and the outer surface. Instantiated for
+/// double and Dual<double, 1>.
+template <class P>
+std::vector<P> layer_boundaries(const Ring<P>& ring);
 
 /// The layer that a place lies in; a boundary belongs to the inner of its layers.
 std::size_t layer_at(const std::vector<double>& boundaries, double xi);
@@ -40,6 +42,18 @@ struct Interval {
   double lower, upper;
   std::size_t layer;
 };
+
+/// An interval whose ends depend on what derivatives are taken with respect to.
+template <class S>
+struct MovingInterval {
+  S lower, upper;
+};
+
+/// Where an element comes to lie when the layers' shares change: it keeps its place within its layer.
+/// `boundaries` are the plain ones that the element was made with.
+template <class P>
+MovingInterval<P> moved_with_layers(const Ring<P>& ring, const std::vector<double>& boundaries,
+                                    const Interval& cell);
 
 /// Elements that end at the layer boundaries and at the fronts.
 std::vector<Interval> radial_mesh(const std::vector<double>& boundaries, const std::vector<Front>& fronts);

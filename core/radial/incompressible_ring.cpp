@@ -16,10 +16,10 @@ using frame::Radial;
 namespace {
 
 /// Displacement and its slope at xi.
-template <class P, class S>
-WallState<S> motion(const Ring<P>& ring, const S& lumen_stretch, double xi) {
+template <class P, class S, class X>
+WallState<S> motion(const Ring<P>& ring, const S& lumen_stretch, const X& xi) {
   using std::sqrt;
-  const P radius = ring.radius(xi);
+  const S radius(ring.radius(xi));
   const S shift = (lumen_stretch * lumen_stretch - 1.0) * (ring.inner_radius * ring.inner_radius);
   const S current = sqrt(radius * radius + shift);
   return {S(shift / (current + radius)), S(-shift / (current * (current + radius))), S(0.0)};
@@ -34,14 +34,52 @@ IncompressibleRing::IncompressibleRing(Ring<double> ring, std::vector<Seeded> se
       boundaries_(layer_boundaries(ring_)) {}
 
 template <class P, class S>
+MovingInterval<S> IncompressibleRing::moved(const Ring<P>& ring, const S& lumen_stretch,
+                                            const Interval& cell) const {
+  if constexpr (std::same_as<S, double>) {
+    return {cell.lower, cell.upper};
+  } else {
+    MovingInterval<S> result{S(cell.lower), S(cell.upper)};
+    if constexpr (std::same_as<P, S>) result = moved_with_layers(ring, boundaries_, cell);
+    const auto& families = wall::families(ring.layers[cell.layer].law);
+    const auto follow_front = [&](S& end) {
+      const double xi = end.value;
+      if (xi == boundaries_[cell.layer] || xi == boundaries_[cell.layer + 1]) return;
+      for (const auto& family : families) {
+        if (!(family.exponent == 1 && family.recruitment.sharp)) continue;
+        const auto excess = [&](const S& stretch, const auto& place) {
+          const WallState<S> m = motion(ring, stretch, place);
+          return family.excess(
+              Kinematics<S>(Radial::gradient(m.displacement, m.radial_slope, S(ring.radius(place)))),
+              Radial::axes());
+        };
+        const S here = excess(lumen_stretch, xi);
+        // find_fronts knows its fronts to 1e-13 of xi.
+        if (std::abs(here.value) > 1e-10) continue;
+        // d(excess)/d(xi) at fixed stretch and parameters, by a difference of values: the excess is smooth.
+        const double step = 1e-5;
+        const double slope =
+            (excess(lumen_stretch, xi + step).value - excess(lumen_stretch, xi - step).value) / (2 * step);
+        end.derivative[0] = -here.derivative[0] / slope;
+        return;
+      }
+    };
+    follow_front(result.lower);
+    follow_front(result.upper);
+    return result;
+  }
+}
+
+template <class P, class S>
 S IncompressibleRing::integral(const Ring<P>& ring, const S& lumen_stretch, const std::vector<Interval>& mesh,
                                double end) const {
   S sum(0.0);
   for (const Interval& cell : mesh) {
     if (cell.lower >= end) break;
-    const double half = 0.5 * (std::min(cell.upper, end) - cell.lower);
+    const MovingInterval<S> ends = moved(ring, lumen_stretch, cell);
+    const S half = 0.5 * ((cell.upper <= end ? ends.upper : S(end)) - ends.lower);
     for (const QuadraturePoint& point : rule_) {
-      const double xi = cell.lower + half * (1 + point.position);
+      const S xi = ends.lower + half * (1 + point.position);
       const S radius(ring.radius(xi));
       const WallState<S> m = motion(ring, lumen_stretch, xi);
       const Tensor<S> kirchhoff =

@@ -21,6 +21,11 @@ class IncompressibleRing final : public RingModel {
   std::span<const Seeded> seeded() const override { return seeded_; }
 
  private:
+  /// An interval of the mesh as it moves with the lumen stretch and the parameters: boundaries between
+  /// layers follow their shares, and fronts their threshold where the stress jumps there (elsewhere it
+  /// is continuous, and where the integral is split does not matter).
+  template <class P, class S>
+  MovingInterval<S> moved(const Ring<P>& ring, const S& lumen_stretch, const Interval& cell) const;
   /// Integral of the deviatoric term from the lumen to xi = end.
   template <class P, class S>
   S integral(const Ring<P>& ring, const S& lumen_stretch, const std::vector<Interval>& mesh,

@@ -24,7 +24,11 @@ struct Ring {
   bool incompressible = false;  ///< J = 1 exactly; the volumetric term of the laws is then not used
   wall::Wall<P> layers;         ///< from the lumen outwards; shares are relative to their sum
 
-  P radius(double xi) const { return inner_radius + thickness * xi; }
+  /// xi may be a dual, for places that move with a parameter.
+  template <class X>
+  auto radius(const X& xi) const {
+    return inner_radius + thickness * xi;
+  }
 
   /// Tether force per radian and unit length for the displacement u of the outer surface: K u times
   /// the current radius (normal, current) or the reference radius (reference). The three readings
