@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the results owe to the tolerances.
+#include <fmt/format.h>
+
+#include <iostream>
+
+#include "core/error.hpp"
+#include "tests/support/lumped_runs.hpp"
+
+namespace tunica {
+namespace {
+
+using test_support::joined;
+using test_support::run_lumped;
+
+struct Gap {
+  double size = 0;
+  std::string where;
+};
+
+/// Largest move of any column of observables.csv over the column's range.
+Gap largest_move(const Result& a, const Result& b) {
+  Gap gap;
+  for (std::size_t c = 1; c < a.observables.columns().size(); ++c) {
+    const auto &x = a.observables[c].values, &y = b.observables[c].values;
+    const double range = test_support::range(y);
+    EXPECT_EQ(x.size(), y.size());
+    for (std::size_t k = 0; k < x.size(); ++k) {
+      if (range == 0 || observables::is_none(x[k])) continue;
+      if (const double move = std::abs(x[k] - y[k]) / range; move > gap.size)
+        gap = {move, fmt::format("{} at {:.3f} s", a.observables[c].name, a.observables[0].values[k])};
+    }
+  }
+  return gap;
+}
+
+struct Case {
+  const char* law;
+  const char* reading;
+};
+class Tolerance : public testing::TestWithParam<Case> {
+ protected:
+  std::vector<std::string> base_{std::string("wall.law=") + GetParam().law,
+                                 std::string("tether.traction=") + GetParam().reading};
+  Result at(double tolerance) const {
+    return run_lumped(joined(base_, {fmt::format("accuracy.tolerance={}", tolerance)}));
+  }
+};
+
+// Issue 2, bars: halving every tolerance moves no column by more than 1e-5 of its range. The tier is
+// never looser than what 1e-8 asks for, so that its error is shown as well: against 1e-9.
+TEST_P(Tolerance, HalvingItMovesNothing) {
+  const Result finest = at(1e-9);
+  for (const double tolerance : {0.01, 1e-6, 1e-8}) {
+    const Result whole = at(tolerance);
+    const Gap by_halving = largest_move(whole, at(tolerance / 2));
+    const Gap error = largest_move(whole, finest);
+    std::cout << GetParam().law << ", " << GetParam().reading << ", tolerance " << tolerance
+              << ": halving moves " << by_halving.size << " (" << by_halving.where << "), 1e-9 moves "
+              << error.size << " (" << error.where << ")\n";
+    EXPECT_LT(by_halving.size, 1e-5) << by_halving.where;
+    EXPECT_LT(error.size, 1e-5) << error.where;
+  }
+}
+
+std::vector<Case> cases() {
+  std::vector<Case> all;
+  for (const char* law : test_support::paper_laws)
+    for (const char* reading : {"normal", "reference"}) all.push_back({law, reading});
+  return all;
+}
+INSTANTIATE_TEST_SUITE_P(Lumped, Tolerance, testing::ValuesIn(cases()), [](const auto& instance) {
+  std::string name = std::string(instance.param.law) + "_" + instance.param.reading;
+  std::erase_if(name, [](char c) { return c == '+' || c == '-'; });
+  return name;
+});
+
+TEST(LumpedTolerance, OfAChainWithInertanceAndRcr) {
+  const std::vector<std::string> base{"lumped.compartments=12", "lumped.inertance=true", "outlet.kind=rcr"};
+  const Result whole = run_lumped(joined(base, {"accuracy.tolerance=1e-6"}));
+  const Gap gap = largest_move(whole, run_lumped(joined(base, {"accuracy.tolerance=5e-7"})));
+  std::cout << "12 compartments: halving moves " << gap.size << " (" << gap.where << ")\n";
+  EXPECT_LT(gap.size, 1e-5) << gap.where;
+}
+
+// The output grid only looks: it must not steer the steps.
+TEST(LumpedTolerance, OutputIntervalMovesNothing) {
+  const Result coarse = run_lumped({"output.interval=0.01", "accuracy.tolerance=1e-6"});
+  const Result fine = run_lumped({"output.interval=0.001", "accuracy.tolerance=1e-6"});
+  for (std::size_t c = 1; c < coarse.observables.columns().size(); ++c)
+    for (std::size_t k = 0; k < coarse.observables.rows(); ++k)
+      EXPECT_NEAR(coarse.observables[c].values[k], fine.observables[c].values[10 * k],
+                  1e-5 * test_support::range(fine.observables[c].values) + 1e-12)
+          << coarse.observables[c].name << " row " << k;
+}
+
+TEST(LumpedTolerance, RowsAreAtTheirTimesAndTheEndIsThere) {
+  const Result result = run_lumped({"output.interval=0.03", "time.beats=1"});
+  const auto& time = test_support::column(result.observables, "time");
+  ASSERT_EQ(time.size(), 28U);
+  for (std::size_t k = 0; k + 1 < time.size(); ++k) EXPECT_DOUBLE_EQ(time[k], 0.03 * static_cast<double>(k));
+  EXPECT_DOUBLE_EQ(time.back(), 0.8);
+}
+
+// A neo-Hookean wall that nothing holds gives way at a pressure far below the artery's.
+TEST(LumpedFailure, KeepsWhatItHasAndSaysWhenAndWhy) {
+  const Scene scene =
+      test_support::scene_with({"wall.law=neo-Hookean", "tether.stiffness=0", "wall.incompressible=true"});
+  const Result result = lumped::LumpedTier().prepare(scene)->execute({});
+  EXPECT_FALSE(result.record.converged);
+  EXPECT_NE(result.record.failure.find("at t = "), std::string::npos) << result.record.failure;
+  EXPECT_NE(result.record.failure.find("lumen stretch"), std::string::npos) << result.record.failure;
+  const auto& time = test_support::column(result.observables, "time");
+  ASSERT_GT(time.size(), 2U);
+  const double failed_at = std::stod(result.record.failure.substr(7));
+  EXPECT_GE(failed_at, time.back());
+  EXPECT_LT(failed_at, time.back() + 2e-3) << "results are kept up to the failure";
+  for (const auto& column : result.observables.columns())
+    EXPECT_EQ(column.size(), time.size()) << column.name;
+}
+
+TEST(LumpedControl, InterruptionKeepsRowsAndProgressIsTold) {
+  const Scene scene = test_support::scene_with({});
+  int reports = 0;
+  RunControl control;
+  Progress last;
+  control.report = [&](const Progress& progress) {
+    ++reports;
+    EXPECT_GE(progress.time, last.time);
+    last = progress;
+  };
+  control.interrupted = [&] { return last.time >= 0.3; };
+  const Result result = lumped::LumpedTier().prepare(scene)->execute(control);
+  EXPECT_TRUE(result.record.interrupted);
+  EXPECT_FALSE(result.record.converged);
+  EXPECT_NEAR(test_support::column(result.observables, "time").back(), 0.3, 2e-3);
+  EXPECT_GT(reports, 100);
+  EXPECT_EQ(last.beat, 1);
+  EXPECT_DOUBLE_EQ(last.end_time, 1.6);
+}
+
+TEST(LumpedTierItself, SuitsCylindersAndTakesBends) {
+  const lumped::LumpedTier tier;
+  EXPECT_EQ(tier.name(), "lumped");
+  EXPECT_TRUE(tier.suits(test_support::scene_with({})));
+  const Scene torus = test_support::scene_with({"geometry.kind=torus", "time.beats=1"});
+  EXPECT_FALSE(tier.suits(torus));
+  EXPECT_EQ(tier.refusal(torus), "");
+  const Result result = run_lumped(torus);
+  EXPECT_TRUE(std::any_of(result.record.remarks.begin(), result.record.remarks.end(),
+                          [](const auto& remark) { return remark.find("bend") != std::string::npos; }));
+}
+
+}  // namespace
+}  // namespace tunica

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lumped/waveform.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+
+#include "tests/support/lumped_runs.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace tunica {
+namespace {
+
+using test_support::column;
+using test_support::run_lumped;
+using test_support::scene_with;
+
+// The extremes of the carotid's flow over its mean, from its series (Baek et al. 2010): DESIGN,
+// section 2, has the peak at 0.2112 s.
+TEST(LumpedWaveform, CarotidHasItsPeakAndItsTrough) {
+  const auto inlet = lumped::inlet_from_scene(scene_with({"time.ramp=0"}));
+  double greatest = 0, least = 10, at_greatest = 0, at_least = 0, sum = 0;
+  constexpr int samples = 80000;
+  for (int k = 0; k < samples; ++k) {
+    const double t = 0.8 * k / samples, value = inlet.shape_at(t);
+    sum += value;
+    if (value > greatest) greatest = value, at_greatest = t;
+    if (value < least) least = value, at_least = t;
+  }
+  EXPECT_NEAR(greatest, 1.4354, 5e-5);
+  EXPECT_NEAR(at_greatest, 0.2112, 5e-5);
+  EXPECT_NEAR(least, 0.7723, 5e-5);
+  EXPECT_NEAR(at_least, 0.018, 5e-4);
+  EXPECT_NEAR(sum / samples, 1, 1e-12);
+  EXPECT_NEAR(inlet.shape_at(0.3), inlet.shape_at(0.3 + 7 * 0.8), 1e-12);
+  EXPECT_FALSE(inlet.is_pressure);
+  EXPECT_EQ(inlet.scale_key, "inlet.flow");
+}
+
+TEST(LumpedWaveform, RampGrowsFromRestWithoutCorners) {
+  const auto ramped = lumped::inlet_from_scene(scene_with({"time.ramp=0.05"}));
+  const auto plain = lumped::inlet_from_scene(scene_with({"time.ramp=0"}));
+  EXPECT_EQ(ramped.shape_at(0), 0);
+  EXPECT_NEAR(ramped.shape_at(0.025), 0.5 * plain.shape_at(0.025), 1e-14);
+  EXPECT_EQ(ramped.shape_at(0.05), plain.shape_at(0.05));
+  const double h = 1e-6;
+  EXPECT_NEAR(ramped.shape_at(h) / h, 0, 1e-2) << "no jump of the slope at the start";
+  const auto periodic = lumped::inlet_from_scene(scene_with({"time.ramp=0.05", "time.start=periodic"}));
+  EXPECT_EQ(periodic.shape_at(0.01), plain.shape_at(0.01)) << "a periodic start has no ramp";
+}
+
+// A natural test of the spline: its own waveform, sampled. Steps of 1 ms: (2 pi 7/800)^4/384 = 2e-8 of
+// the seventh harmonic.
+TEST(LumpedWaveform, SampledCarotidGivesTheSameRun) {
+  const auto inlet = lumped::inlet_from_scene(scene_with({"time.ramp=0"}));
+  const double mean = 255.0 / 60 * std::pow(0.033 / 0.195, 2);
+  const test_support::TemporaryFolder folder;
+  {
+    std::ofstream file(folder.path() / "carotid.csv");
+    file << "time[ms],flow[ml/s]\n";
+    for (int k = 0; k <= 800; ++k)
+      file << fmt::format("{},{:.17g}\n", k, mean * inlet.shape_at(1e-3 * (k % 800)));
+  }
+  const Result built_in = run_lumped({"accuracy.tolerance=1e-8"});
+  const Result sampled = run_lumped({"accuracy.tolerance=1e-8", "inlet.waveform=carotid.csv"}, folder.path());
+  for (const char* name : {"inflow", "outflow", "pressure", "transmural_pressure", "radial_displacement.P1",
+                           "fiber_angle.P2", "von_mises.P3"}) {
+    const auto &a = column(built_in.observables, name), &b = column(sampled.observables, name);
+    ASSERT_EQ(a.size(), b.size());
+    const double range = test_support::range(a);
+    for (std::size_t k = 0; k < a.size(); ++k) EXPECT_NEAR(a[k], b[k], 1e-6 * range) << name << " row " << k;
+  }
+}
+
+TEST(LumpedWaveform, PressureFromAFile) {
+  const test_support::TemporaryFolder folder;
+  std::ofstream(folder.path() / "p.csv") << "time[s],pressure[mmHg]\n0,80\n0.1,120\n0.3,100\n0.5,80\n";
+  const auto inlet =
+      lumped::inlet_from_scene(scene_with({"inlet.waveform=p.csv", "time.ramp=0"}, folder.path()));
+  EXPECT_TRUE(inlet.is_pressure);
+  EXPECT_EQ(inlet.period, 0.5);
+  EXPECT_EQ(inlet.scale_key, "");
+  EXPECT_NEAR(inlet.shape_at(0.1), 120 * 1333.22387, 1e-6);
+  EXPECT_NEAR(inlet.shape_at(1.3), 100 * 1333.22387, 1e-6);
+}
+
+}  // namespace
+}  // namespace tunica
