@@ -12,6 +12,7 @@
 #include "lumped/limit_cycle.hpp"
 #include "lumped/network.hpp"
 #include "lumped/observer.hpp"
+#include "lumped/recruitment_log.hpp"
 #include "lumped/stops.hpp"
 #include "lumped/wall_fields.hpp"
 
@@ -33,29 +34,6 @@ double local_tolerance(const Scene& scene) {
   return std::clamp(0.01 * scene.number("accuracy.tolerance"), 1e-11, loosest);
 }
 
-/// When fibres at a place were recruited and released during the last beat, in order.
-class RecruitedTime {
- public:
-  RecruitedTime(double from, bool recruited, std::size_t parameters)
-      : since_(from), on_(recruited), derivative_(parameters) {}
-
-  void change(double time, bool recruited, const std::vector<double>& time_derivatives) {
-    if (on_) total_ += time - since_;
-    for (std::size_t k = 0; k < derivative_.size(); ++k)
-      derivative_[k] += (recruited ? -1 : 1) * time_derivatives[k];
-    since_ = time;
-    on_ = recruited;
-  }
-  double total(double end) const { return total_ + (on_ ? end - since_ : 0.0); }
-  const std::vector<double>& derivatives() const { return derivative_; }
-
- private:
-  double since_;
-  bool on_;
-  double total_ = 0;
-  std::vector<double> derivative_;
-};
-
 /// One run of the tier: the network, its integrator and the tables that it fills.
 class LumpedRun final : public TierRun {
  public:
@@ -67,7 +45,8 @@ class LumpedRun final : public TierRun {
         observer_(network_, parameters_),
         wall_fields_(network_.curve().model(), scene.number("geometry.length")),
         stops_(stops(scene, network_.inlet().period)),
-        tolerance_(local_tolerance(scene)) {
+        tolerance_(local_tolerance(scene)),
+        log_(network_, parameters_) {
     check_profile_times();
     prepare_tables();
     prepare_curve();
@@ -84,6 +63,7 @@ class LumpedRun final : public TierRun {
       result_.record.failure = fmt::format("at t = {:.6g} s (beat {}): {}", time_,
                                            1 + static_cast<int>(time_ / period), reason(failure));
     }
+    std::move(log_).store(result_);
     result_.record.solve_seconds = seconds_since(solving);
     return std::move(result_);
   }
@@ -102,20 +82,7 @@ class LumpedRun final : public TierRun {
     result_.profiles = observables::profile_table();
     if (scene_.number("output.field_interval") > 0) result_.fields.push_back(wall_fields_.empty_series());
     result_.sensitivities = observer_.sensitivity_table();
-    auto& events = result_.events;
-    events.add("time", "s");
-    events.add("point", "");
-    events.add("family", "1");
-    events.add("change", "");
-    if (!parameters_.empty()) {
-      auto& table = result_.event_sensitivities;
-      table.add("time", "s");
-      table.add("point", "");
-      table.add("family", "1");
-      table.add("change", "");
-      for (std::size_t k = 0; k < parameters_.size(); ++k)
-        table.add(observer_.derivative_name("time", k), observer_.derivative_unit("s", k));
-    }
+    if (network_.compartments() > 1) result_.compartments = observer_.compartment_table();
     auto& record = result_.record;
     record.tier = "lumped";
     record.resolution = {{"compartments", scene_.integer("lumped.compartments")},
@@ -145,8 +112,7 @@ class LumpedRun final : public TierRun {
     if (asked <= carried.pressure) return failure.what();
     return fmt::format(
         "the wall has no equilibrium at {:.4g} mmHg, the pressure that the inflow asks for: it carries at "
-        "most {:.4g} mmHg, "
-        "at lumen stretch {:.4g} ({})",
+        "most {:.4g} mmHg, at lumen stretch {:.4g} ({})",
         asked / mmhg, carried.pressure / mmhg, carried.stretch, failure.what());
   }
 
@@ -196,12 +162,8 @@ class LumpedRun final : public TierRun {
     s.rate_derivative = [this](double t, const double* y, const double* dy, int k, double* result) {
       network_.rate_derivative(t, y, dy, k, result);
     };
-    const auto& thresholds = network_.curve().thresholds();
-    s.events = static_cast<int>(thresholds.size());
-    s.event_values = [this, &thresholds](const double* y, double* values) {
-      const double stretch = network_.mid_stretch(y);
-      for (std::size_t k = 0; k < thresholds.size(); ++k) values[k] = stretch - thresholds[k].stretch;
-    };
+    s.events = log_.events();
+    s.event_values = [this](const double* y, double* values) { log_.event_values(y, values); };
     return s;
   }
 
@@ -223,14 +185,13 @@ class LumpedRun final : public TierRun {
     Integrator integrator(s, carried, tolerance_);
     const double end = stops_.back().time;
     integrator.start(0, end, state, derivatives);
-    const double last_beat = end - network_.inlet().period;
     for (const Stop& stop : stops_) {
       while (integrator.time() < stop.time) {
         const auto crossings = integrator.advance(stop.time);
         time_ = integrator.time();
-        if (recruited_.empty() && time_ >= last_beat) begin_last_beat(last_beat, integrator, crossings);
-        for (const Crossing& crossing : crossings) record_event(integrator, crossing, last_beat);
+        for (const Crossing& crossing : crossings) log_.record(integrator, crossing);
       }
+      if (stop.begins_last_beat) log_.begin_last_beat(stop.time, integrator.state());
       record_stop(integrator, stop);
       result_.record.steps = statistics.steps + integrator.statistics().steps;
       result_.record.newton_iterations =
@@ -243,7 +204,7 @@ class LumpedRun final : public TierRun {
         return;
       }
     }
-    finish_last_beat(end);
+    log_.end_last_beat(end);
   }
 
   void record_stop(const Integrator& integrator, const Stop& stop) {
@@ -252,6 +213,7 @@ class LumpedRun final : public TierRun {
       observables::append(result_.observables, observer_.sample(stop.time, y));
       if (!parameters_.empty())
         observer_.append_sensitivities(stop.time, y, sensitivities(integrator), result_.sensitivities);
+      if (network_.compartments() > 1) observer_.append_compartments(stop.time, y, result_.compartments);
     }
     if (stop.is_profile) observer_.append_profile(stop.time, y, result_.profiles);
     if (stop.is_field) wall_fields_.append(stop.time, network_.mid_stretch(y), result_.fields.front());
@@ -263,72 +225,6 @@ class LumpedRun final : public TierRun {
     return all;
   }
 
-  /// dt*/dtheta of a crossing s(t*) = s_threshold: -(ds/dtheta - ds_threshold/dtheta) / (ds/dt).
-  std::vector<double> crossing_derivatives(const Integrator& integrator,
-                                           const radial::Threshold& threshold) const {
-    const double* y = integrator.state();
-    std::vector<double> rate(network_.unknowns()), derivatives;
-    network_.rate(integrator.time(), y, rate.data());
-    const double speed =
-        network_.outside_derivative(integrator.time(), y, rate.data(), -1).lumen_stretch.derivative[0];
-    for (int k = 0; k < network_.parameters(); ++k) {
-      const double moved = network_.outside_derivative(integrator.time(), y, integrator.sensitivity(k), k)
-                               .lumen_stretch.derivative[0];
-      derivatives.push_back(-(moved - threshold.derivatives[k]) / speed);
-    }
-    return derivatives;
-  }
-
-  void record_event(const Integrator& integrator, const Crossing& crossing, double last_beat) {
-    const auto& threshold = network_.curve().thresholds()[crossing.index];
-    const auto derivatives = crossing_derivatives(integrator, threshold);
-    const std::string point = fmt::format("P{}", threshold.place + 1);
-    const auto put = [&](observables::Table& table) {
-      table[0].values.push_back(integrator.time());
-      table[1].labels.push_back(point);
-      table[2].values.push_back(static_cast<double>(threshold.family + 1));
-      table[3].labels.emplace_back(crossing.rising ? "recruited" : "released");
-    };
-    put(result_.events);
-    if (!parameters_.empty()) {
-      put(result_.event_sensitivities);
-      for (std::size_t k = 0; k < derivatives.size(); ++k)
-        result_.event_sensitivities[4 + k].values.push_back(derivatives[k]);
-    }
-    if (integrator.time() >= last_beat && !recruited_.empty())
-      recruited_[crossing.index].change(integrator.time(), crossing.rising, derivatives);
-  }
-
-  void begin_last_beat(double start, const Integrator& integrator, const std::vector<Crossing>& crossings) {
-    const auto& thresholds = network_.curve().thresholds();
-    const double stretch = network_.mid_stretch(integrator.state());
-    for (std::size_t k = 0; k < thresholds.size(); ++k) {
-      bool on = stretch > thresholds[k].stretch;
-      // A crossing right now is counted as an event of the beat, so the beat begins before it.
-      for (const Crossing& crossing : crossings)
-        if (crossing.index == static_cast<int>(k)) on = !crossing.rising;
-      recruited_.emplace_back(start, on, parameters_.size());
-    }
-  }
-
-  void finish_last_beat(double end) {
-    if (recruited_.empty()) return;
-    auto& table = result_.recruited_time;
-    table.add("point", "");
-    table.add("family", "1");
-    table.add("recruited_time", "s");
-    for (std::size_t k = 0; k < parameters_.size(); ++k)
-      table.add(observer_.derivative_name("recruited_time", k), observer_.derivative_unit("s", k));
-    for (std::size_t i = 0; i < recruited_.size(); ++i) {
-      const auto& threshold = network_.curve().thresholds()[i];
-      table[0].labels.push_back(fmt::format("P{}", threshold.place + 1));
-      table[1].values.push_back(static_cast<double>(threshold.family + 1));
-      table[2].values.push_back(recruited_[i].total(end));
-      for (std::size_t k = 0; k < parameters_.size(); ++k)
-        table[3 + k].values.push_back(recruited_[i].derivatives()[k]);
-    }
-  }
-
   const Scene& scene_;
   Clock::time_point began_;
   std::vector<std::string> parameters_;
@@ -338,7 +234,7 @@ class LumpedRun final : public TierRun {
   std::vector<Stop> stops_;
   double tolerance_;
   double time_ = 0;
-  std::vector<RecruitedTime> recruited_;
+  RecruitmentLog log_;
   Result result_;
 };
 

@@ -256,6 +256,14 @@ Outside<D> Network::outside_derivative(double time, const double* y, const doubl
   return outside_of(k >= 0 ? seeded_[k] : lift<D>(numbers_), time, dual.data(), k);
 }
 
+std::vector<Compartment> Network::inside(double time, const double* y) const {
+  const Flows<double> f = flows(numbers_, time, y, -1);
+  std::vector<Compartment> all;
+  for (int i = 0; i < compartments_; ++i)
+    all.push_back({f.pressure[i], numbers_.radius * std::sqrt(y[area_index(i)]), f.flow[i + 1]});
+  return all;
+}
+
 double Network::mid_stretch(const double* y) const {
   return mid_stretch_of(y);
 }

@@ -28,6 +28,13 @@ struct Outside {
   P pressure;         ///< there, dyn/cm2
 };
 
+/// State of one compartment.
+struct Compartment {
+  double pressure;      ///< dyn/cm2
+  double lumen_radius;  ///< cm
+  double outflow;       ///< cm3/s, to the next compartment or through the outlet
+};
+
 /// The artery as N compartments of nonlinear compliance in series, each the thick ring of the scene,
 /// joined by the Poiseuille resistance of the deformed lumen and, as an option, by the inertance of
 /// its blood. Unknowns, in this order along the artery:
@@ -45,6 +52,7 @@ class Network {
   Network(const Scene& scene, const std::vector<std::string>& parameters);
 
   int unknowns() const { return unknowns_; }
+  int compartments() const { return compartments_; }
   int parameters() const { return static_cast<int>(seeded_.size()); }
   /// Half-width of the band of the Jacobian.
   int bandwidth() const { return std::min(2, unknowns_ - 1); }
@@ -64,6 +72,8 @@ class Network {
   Outside<double> outside(double time, const double* y) const;
   /// Derivatives along dy and, when k >= 0, parameter k.
   Outside<Dual<double, 1>> outside_derivative(double time, const double* y, const double* dy, int k) const;
+  /// The compartments from the inlet to the outlet.
+  std::vector<Compartment> inside(double time, const double* y) const;
   /// Lumen stretch of the section at mid-length.
   double mid_stretch(const double* y) const;
 

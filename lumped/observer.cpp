@@ -70,26 +70,19 @@ observables::Sample Observer::sample(double time, const double* y) const {
   return sample;
 }
 
-std::string Observer::derivative_name(std::string_view quantity, std::size_t k) const {
-  return fmt::format("d({})/d({})", quantity, parameters_[k]);
-}
-
-std::string Observer::derivative_unit(std::string_view unit, std::size_t k) const {
-  const std::string& below = scene::find_parameter(parameters_[k])->unit;
-  return below == "1" ? std::string(unit) : fmt::format("({})/({})", unit, below);
-}
-
 observables::Table Observer::sensitivity_table() const {
   observables::Table table;
   if (parameters_.empty()) return table;
   table.add("time", "s");
-  for (std::size_t k = 0; k < parameters_.size(); ++k) {
-    for (const Quantity& quantity : section_quantities)
-      table.add(derivative_name(quantity.name, k), derivative_unit(quantity.unit, k));
+  for (const auto& key : parameters_) {
+    const auto add = [&](std::string_view quantity, std::string_view unit) {
+      auto head = observables::sensitivity_column(quantity, unit, key, scene::find_parameter(key)->unit);
+      table.add(std::move(head.name), std::move(head.unit));
+    };
+    for (const Quantity& quantity : section_quantities) add(quantity.name, quantity.unit);
     for (const Quantity& quantity : point_quantities)
       for (int p = 1; p <= observables::wall_points; ++p)
-        table.add(derivative_name(fmt::format("{}.P{}", quantity.name, p), k),
-                  derivative_unit(quantity.unit, k));
+        add(fmt::format("{}.P{}", quantity.name, p), quantity.unit);
   }
   return table;
 }
@@ -140,6 +133,28 @@ void Observer::append_profile(double time, const double* y, observables::Table& 
   for (auto& point : wall_profile(network_.curve().model(), network_.mid_stretch(y), places)) {
     point.time = time;
     observables::append(table, point);
+  }
+}
+
+observables::Table Observer::compartment_table() const {
+  observables::Table table;
+  table.add("time", "s");
+  for (int i = 1; i <= network_.compartments(); ++i) {
+    table.add(fmt::format("pressure.C{}", i), "dyn/cm2");
+    table.add(fmt::format("lumen_radius.C{}", i), "cm");
+    table.add(fmt::format("outflow.C{}", i), "cm3/s");
+  }
+  return table;
+}
+
+void Observer::append_compartments(double time, const double* y, observables::Table& table) const {
+  std::size_t column = 0;
+  const auto put = [&](double value) { table[column++].values.push_back(value); };
+  put(time);
+  for (const Compartment& compartment : network_.inside(time, y)) {
+    put(compartment.pressure);
+    put(compartment.lumen_radius);
+    put(compartment.outflow);
   }
 }
 

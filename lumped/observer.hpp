@@ -24,9 +24,10 @@ class Observer {
 
   observables::Table sensitivity_table() const;
 
-  /// "d(pressure)/d(outlet.resistance)" and its unit.
-  std::string derivative_name(std::string_view quantity, std::size_t k) const;
-  std::string derivative_unit(std::string_view unit, std::size_t k) const;
+  /// One row of compartments.csv: pressure, lumen radius and outflow of each compartment, so that the
+  /// pressure drop from end to end and travelling waves can be seen.
+  void append_compartments(double time, const double* y, observables::Table& table) const;
+  observables::Table compartment_table() const;
 
  private:
   const Network& network_;

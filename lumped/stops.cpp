@@ -22,7 +22,7 @@ std::vector<double> regular_times(double interval, double end) {
 std::vector<Stop> stops(const Scene& scene, double period) {
   const auto beats = static_cast<double>(scene.integer("time.beats"));
   const double end = beats * period;
-  std::vector<Stop> all;
+  std::vector<Stop> all{{.time = (beats - 1) * period, .begins_last_beat = true}};
   for (const double time : regular_times(scene.number("output.interval"), end))
     all.push_back({.time = time, .is_row = true});
   const double field_interval = scene.number("output.field_interval");

@@ -13,6 +13,7 @@ struct Stop {
   bool is_row = false;      ///< a row of observables.csv
   bool is_profile = false;  ///< a profile through the wall
   bool is_field = false;    ///< the wall's cross-section for fields/
+  bool begins_last_beat = false;
 };
 
 /// The stops of a scene with beats of `period` seconds, in order: rows every output.interval and fields

@@ -43,6 +43,8 @@ struct Result {
                                            ///< d(time)/d(key); likewise
   observables::Table recruited_time;       ///< recruited_time.csv: point, family[1], recruited_time[s] in the
                                            ///< last beat, then its sensitivities; none without fibres
+  observables::Table compartments;         ///< compartments.csv: pressure, radius and flow along the artery;
+                                           ///< none for a single compartment
   std::vector<observables::FieldSeries> fields;  ///< fields/NAME.xdmf, for viewers; none when not asked for
   RunRecord record;
 };

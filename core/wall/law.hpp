@@ -93,6 +93,10 @@ const std::vector<CollagenFamily<P>>& families(const Law<P>& law) {
       law);
 }
 
+/// Not of a temporary: its families would be gone with it.
+template <class P>
+const std::vector<CollagenFamily<P>>& families(const Law<P>&& law) = delete;
+
 /// First Piola-Kirchhoff stress P(H), dyn/cm2, for the displacement gradient H = F - I.
 template <class P, class S>
 Tensor<S> piola(const Law<P>& law, const Tensor<S>& displacement_gradient, const MaterialAxes& axes) {
