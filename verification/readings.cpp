@@ -8,7 +8,6 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
-#include <ranges>
 
 #include "core/observables/record.hpp"
 #include "core/scene/parameter.hpp"
@@ -147,10 +146,10 @@ std::vector<ReadingGroup> group_by_reading(const std::vector<StoredResult>& runs
       continue;
     }
     const Reading reading = read_reading(run);
-    const auto is_same = [&](std::size_t index) {
-      return usable[index].law == compared.law && same_reading(readings[index], reading);
-    };
-    if (std::ranges::any_of(std::views::iota(std::size_t{0}, usable.size()), is_same)) {
+    bool is_repeated = false;
+    for (std::size_t k = 0; k < usable.size(); ++k)
+      is_repeated |= usable[k].law == compared.law && same_reading(readings[k], reading);
+    if (is_repeated) {
       leave_out(run, "another run of this law and reading is compared");
       continue;
     }
