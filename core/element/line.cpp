@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/element/line.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -53,15 +54,19 @@ void Line::shapes_at(double position, double* out) const {
   for (int k = 0; k < n; ++k) out[k] /= sum;
 }
 
-void Line::slopes_at(double position, double* out) const {
+void Line::slopes_from(const double* shapes, double* out) const {
   const int n = nodes();
-  std::vector<double> shapes(n);
-  shapes_at(position, shapes.data());
-  for (int k = 0; k < n; ++k) {
-    double sum = 0;
-    for (int i = 0; i < n; ++i) sum += shapes[i] * differentiation_[i * n + k];
-    out[k] = sum;
+  std::fill_n(out, n, 0.0);
+  for (int i = 0; i < n; ++i) {
+    const double* row = &differentiation_[i * n];
+    for (int k = 0; k < n; ++k) out[k] += shapes[i] * row[k];
   }
+}
+
+void Line::slopes_at(double position, double* out) const {
+  std::vector<double> shapes(nodes());
+  shapes_at(position, shapes.data());
+  slopes_from(shapes.data(), out);
 }
 
 }  // namespace tunica::element

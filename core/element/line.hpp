@@ -27,6 +27,8 @@ class Line {
   /// entries.
   void shapes_at(double position, double* out) const;
   void slopes_at(double position, double* out) const;
+  /// The derivatives at a position where the shape functions are already known.
+  void slopes_from(const double* shapes, double* out) const;
 
  private:
   int degree_;

@@ -392,7 +392,7 @@ WallState<P> CompressibleRing::state(const Ring<P>& ring, const Solution& soluti
   const int n = line_.nodes();
   std::vector<double> shapes(n), slopes(n);
   line_.shapes_at(position, shapes.data());
-  line_.slopes_at(position, slopes.data());
+  line_.slopes_from(shapes.data(), slopes.data());
   P u(0.0), du(0.0);
   for (int k = 0; k < n; ++k) {
     u += shapes[k] * displacement[e * (n - 1) + k];
