@@ -20,8 +20,9 @@ std::vector<StoredResult> four_laws() {
 
 /// A run whose every text tries to leave its place in the page.
 StoredResult hostile() {
-  const std::string attack = "</script><script>document.documentElement.dataset.broken='yes'</script>"
-                             "<img src=x onerror=\"document.documentElement.dataset.broken='yes'\">{{data}}&amp;'\"";
+  const std::string attack =
+      "</script><script>document.documentElement.dataset.broken='yes'</script>"
+      "<img src=x onerror=\"document.documentElement.dataset.broken='yes'\">{{data}}&amp;'\"";
   StoredResult run = synthetic_run({.name = attack});
   run.folder = attack;
   run.record["scene"]["wall.law"] = attack;
@@ -33,7 +34,9 @@ StoredResult hostile() {
   return run;
 }
 
-StoredResult finer_in_time() { return synthetic_run({.name = "fine", .interval = 0.0007}); }
+StoredResult finer_in_time() {
+  return synthetic_run({.name = "fine", .interval = 0.0007});
+}
 
 }  // namespace
 
