@@ -106,6 +106,10 @@ std::string broken_file(const fs::path& folder) {
       continue;
     }
     if (name.starts_with('.') && name.ends_with(".part")) continue;
+    if (name == "fields" && entry.is_directory()) {
+      if (const std::string broken = broken_file(entry.path()); !broken.empty()) return broken;
+      continue;
+    }
     const std::string text = read_text(entry.path());
     if (name.ends_with(".csv")) {
       // read_csv asks for a value or an empty cell in every column of every row.
@@ -117,6 +121,8 @@ std::string broken_file(const fs::path& folder) {
       if (!text.ends_with('\n')) return name + " does not end its last line";
     } else if (name.ends_with(".json")) {
       if (!nlohmann::json::accept(text)) return name + " does not parse";
+    } else if (name.ends_with(".xdmf")) {
+      if (!text.ends_with("</Xdmf>\n")) return name + " is cut off";
     } else if (name.ends_with(".html")) {
       if (text.find("</html>") == std::string::npos) return name + " is cut off";
     } else if (name.ends_with(".xdmf")) {
