@@ -115,7 +115,8 @@ struct Event {
 /// An empty table with the columns of events.csv: time[s], point ("P1"), family[1], change ("recruited" or
 /// "released").
 Table event_table();
-/// Appends one row to a table made by event_table.
+/// Appends one row to a table made by event_table; columns that were added after those are left to the
+/// caller.
 void append(Table& table, const Event& event);
 
 /// Name and unit of the column that holds the derivative of a quantity by a scene parameter:
