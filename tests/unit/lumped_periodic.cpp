@@ -30,7 +30,7 @@ double largest_gap(const observables::Table& a, std::size_t first_a, const obser
 
 class LimitCycle : public testing::TestWithParam<const char*> {};
 
-// Issue 2, bars: the limit cycle start agrees with beat 10 from rest to 1e-6. Every column of
+// The limit cycle start agrees with beat 10 from rest to 1e-6. Every column of
 // observables.csv, recruitment included, relative to its range; at the tolerance that is asked for
 // results as fine as that.
 TEST_P(LimitCycle, IsBeatTenFromRest) {

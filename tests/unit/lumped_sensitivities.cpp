@@ -75,8 +75,8 @@ class Sensitivities : public testing::TestWithParam<Case> {
   Changed changed_;
 };
 
-// Issue 2, bars: 1e-5 relative, away from recruitment instants. Relative to the column's largest
-// magnitude; rows within 5 ms of an event, whose time itself moves, are left out.
+// Sensitivities agree with central differences to 1e-5 of the column's largest magnitude; rows within 5 ms
+// of an event, whose time itself moves, are left out.
 TEST_P(Sensitivities, AgreeWithCentralDifferences) {
   const std::string key = GetParam().key;
   const Result result = run_lumped(joined(base_, {fmt::format("sensitivity.parameters=['{}']", key)}));

@@ -47,7 +47,7 @@ class Tolerance : public testing::TestWithParam<Case> {
   }
 };
 
-// Issue 2, bars: halving every tolerance moves no column by more than 1e-5 of its range. The tier is
+// Halving every tolerance moves no column by more than 1e-5 of its range. The tier is
 // never looser than what 1e-8 asks for, so that its error is shown as well: against 1e-9.
 TEST_P(Tolerance, HalvingItMovesNothing) {
   const Result finest = at(1e-9);

@@ -37,7 +37,7 @@ struct Case {
 
 class Convergence : public testing::TestWithParam<Case> {};
 
-// Issue 2, item 3: relative accuracy 1e-8 in displacement, shown by convergence. The stretches put the
+// Displacements have a relative accuracy of 1e-8, shown by convergence. The stretches put the
 // recruitment front of EXP1+EXP2-FS before, inside (three) and beyond the wall.
 TEST_P(Convergence, DisplacementIsKnownToOneInTenToTheEight) {
   const auto ring = ring_with(
