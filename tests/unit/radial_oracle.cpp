@@ -25,7 +25,7 @@ void expect_same(const ShotRing& shot, const radial::RingModel& model, double ou
   EXPECT_NEAR(response.states[0].displacement / shot.inner_displacement, 1, 1e-12);
 }
 
-// Displacements are those of the shooting method to a relative 1e-8, with the recruitment front inside the wall.
+// Displacements are those of shooting to a relative 1e-8, with the recruitment front inside the wall.
 class AgainstShooting : public testing::TestWithParam<const char*> {};
 
 TEST_P(AgainstShooting, FrontInsideTheWall) {
