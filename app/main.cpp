@@ -4,6 +4,7 @@
 #include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 
 #include "app/commands/commands.hpp"
 #include "core/error.hpp"
@@ -65,6 +66,15 @@ int main(int argc, char** argv) {
   } catch (const CLI::Success& success) {
     return app.exit(success);
   } catch (const CLI::ParseError& error) {
+    const auto commands = app.get_subcommands([](const CLI::App*) { return true; });
+    const bool known =
+        argc < 2 || std::any_of(commands.begin(), commands.end(),
+                                [&](const CLI::App* command) { return command->get_name() == argv[1]; });
+    if (!known && argv[1][0] != '-') {
+      fmt::print(stderr, "tunica: {} is not a command; there are: run, scene, report (see tunica --help)\n",
+                 argv[1]);
+      return bad_input;
+    }
     fmt::print(stderr, "tunica: {} (see tunica --help)\n", error.what());
     return bad_input;
   }
@@ -77,7 +87,10 @@ int main(int argc, char** argv) {
     return complain(error, bad_input);
   } catch (const OutputFailure& error) {
     return complain(error, bad_input);
-  } catch (const std::exception& error) {
+  } catch (const SolverFailure& error) {
     return complain(error, gave_up);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "tunica: internal error, please report it: {}\n", error.what());
+    return gave_up;
   }
 }

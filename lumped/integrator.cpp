@@ -54,6 +54,7 @@ struct Integrator::Implementation {
   double now = 0;
   bool started = false;
   IntegratorStatistics before;  ///< of the runs before the last start
+  bool interrupted = false;     ///< the right-hand side has asked to end
   std::string complaint;        ///< what the right-hand side said when it could not be computed
 
   int count() const { return static_cast<int>(carried.size()); }
@@ -66,6 +67,7 @@ struct Integrator::Implementation {
 
   void check(int code, const char* function) const {
     if (code >= 0) return;
+    if (interrupted) throw Interrupted();
     const std::unique_ptr<char, decltype(&std::free)> name(CVodeGetReturnFlagName(code), &std::free);
     throw SolverFailure(fmt::format("{}{}{} reported {}", complaint, complaint.empty() ? "" : "; ", function,
                                     name ? name.get() : "an error"));
@@ -97,6 +99,9 @@ struct Integrator::Implementation {
     try {
       work(*this);
       return 0;
+    } catch (const Interrupted&) {
+      interrupted = true;
+      return -1;  // unrecoverable
     } catch (const std::exception& error) {
       complaint = error.what();
       return 1;

@@ -8,6 +8,9 @@
 
 namespace tunica::lumped {
 
+/// Thrown by a right-hand side to end the integration at once, and passed on by Integrator::advance.
+struct Interrupted {};
+
 /// A system of ordinary differential equations y' = f(t, y; theta) with a banded Jacobian.
 struct System {
   int unknowns = 0;

@@ -18,11 +18,6 @@ using std::numbers::pi;
 
 namespace {
 
-/// Reference radius and flow by which the carotid's waveform is scaled to an artery (255 ml/min at
-/// 0.195 cm; Baek et al. 2010).
-constexpr double carotid_flow = 255.0 / 60.0;
-constexpr double carotid_radius = 0.195;
-
 /// xi of P1..P4.
 std::vector<double> wall_places() {
   std::vector<double> places;
@@ -48,12 +43,11 @@ NetworkNumbers<P> Network::numbers(const SeededScene<P>& scene) const {
     n.proximal_resistance = scene.number("outlet.proximal_resistance");
     n.compliance = scene.number("outlet.compliance");
   }
-  if (inlet_.scale_key == "inlet.flow" && !scene.scene().was_set("inlet.flow")) {
-    const P ratio = n.radius / carotid_radius;
-    n.inlet_scale = carotid_flow * ratio * ratio;
-  } else if (!inlet_.scale_key.empty()) {
-    n.inlet_scale = scene.number(inlet_.scale_key);
-  }
+  if (!inlet_.scale_key.empty()) n.inlet_scale = scene.number(inlet_.scale_key);
+  // A flow that is not given follows the lumen's area, so it moves with the radius.
+  if constexpr (!std::same_as<P, double>)
+    if (inlet_.scale_key == "inlet.flow" && !scene.scene().was_set("inlet.flow"))
+      n.inlet_scale.derivative[0] += 2 * n.inlet_scale.value / n.radius.value * n.radius.derivative[0];
   return n;
 }
 
@@ -117,8 +111,8 @@ std::vector<double> Network::scales() const {
   // A pressure of the size that the artery sees, and the flow that goes with it.
   const double tissue_pressure = std::abs(curve_->pressure(1.1));
   const double outlet = n.resistance + n.proximal_resistance;
-  const double flow = inlet_.is_pressure ? std::max(1.0, std::abs(n.inlet_scale)) / std::max(outlet, 1.0)
-                                         : std::max(std::abs(n.inlet_scale), 1e-12);
+  const double inlet = std::abs(n.inlet_scale) * inlet_.greatest_shape();
+  const double flow = inlet_.is_pressure ? std::max(1.0, inlet) / std::max(outlet, 1.0) : inlet;
   std::vector<double> scale(unknowns_, std::max(flow, 1e-12));
   for (int i = 0; i < compartments_; ++i) scale[area_index(i)] = 1;
   if (windkessel_) scale.back() = std::max(tissue_pressure, 1.0);

@@ -74,6 +74,13 @@ double Inlet::shape_at(double time) const {
   return time < ramp ? 0.5 * (1 - std::cos(std::numbers::pi * time / ramp)) * value : value;
 }
 
+double Inlet::greatest_shape() const {
+  double greatest = 0;
+  constexpr int samples = 64;
+  for (int k = 0; k < samples; ++k) greatest = std::max(greatest, std::abs(shape->at(period * k / samples)));
+  return greatest;
+}
+
 Inlet inlet_from_scene(const Scene& scene) {
   Inlet inlet;
   const std::string& waveform = scene.text("inlet.waveform");

@@ -24,6 +24,8 @@ struct Inlet {
 
   /// shape(t), times (1 - cos(pi t / ramp))/2 while t < ramp.
   double shape_at(double time) const;
+  /// Largest magnitude of the shape within a period, ramp aside, to within a few per cent.
+  double greatest_shape() const;
 };
 
 /// Throws InvalidInput when the scene's CSV file cannot be used.

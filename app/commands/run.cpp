@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <csignal>
 #include <filesystem>
+#include <string_view>
 
 #include "app/commands/commands.hpp"
 #include "app/progress.hpp"
@@ -19,11 +21,19 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr const char* report_file = "report.html";
+
 std::atomic<bool> stop_asked = false;
+std::atomic<bool> setting_up = true;
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may only touch lock-free atomics");
 
+/// A run that computes keeps what it has; before that there is nothing to keep.
 void ask_to_stop(int) {
   stop_asked = true;
+  if (!setting_up) return;
+  constexpr std::string_view message = "tunica: interrupted before anything was computed\n";
+  [[maybe_unused]] const auto written = ::write(STDERR_FILENO, message.data(), message.size());
+  ::_exit(interrupted);
 }
 
 /// With --resume: true when the folder already holds this scene's whole result. A different scene
@@ -55,12 +65,12 @@ int run_command(const RunArguments& arguments) {
     return done;
   }
 
+  std::signal(SIGINT, ask_to_stop);
+  std::signal(SIGTERM, ask_to_stop);
   // A scene that the tier refuses must leave nothing behind, so the folder is made after this.
   const std::unique_ptr<TierRun> run = tier.prepare(scene);
   make_result_folder(folder);
-
-  std::signal(SIGINT, ask_to_stop);
-  std::signal(SIGTERM, ask_to_stop);
+  setting_up = false;
   Result result;
   {
     ProgressDisplay display(arguments.quiet);
@@ -69,9 +79,12 @@ int run_command(const RunArguments& arguments) {
     control.interrupted = [] { return stop_asked.load(); };
     result = run->execute(control);
   }
+  // A report that was made of an earlier result must not stand beside this one.
+  std::error_code no_report;
+  fs::remove(folder / report_file, no_report);
   write_result(folder, scene, result);
   if (arguments.report && result.observables.rows() > 0)
-    write_whole(folder / "report.html", make_report({read_result(folder)}));
+    write_whole(folder / report_file, make_report({read_result(folder)}));
 
   const RunRecord& record = result.record;
   if (!arguments.quiet)
@@ -84,7 +97,7 @@ int run_command(const RunArguments& arguments) {
     return gave_up;
   }
   if (record.interrupted) {
-    fmt::print(stderr, "tunica: {}: interrupted; results so far are in {}, go on with --resume\n",
+    fmt::print(stderr, "tunica: {}: interrupted; results so far are in {}, --resume completes them\n",
                scene.name(), folder.string());
     return interrupted;
   }

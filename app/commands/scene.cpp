@@ -24,13 +24,14 @@ fs::path scenes_folder() {
   return fs::is_directory(installed, error) ? installed : fs::path(TUNICA_SOURCE_SCENES);
 }
 
-/// What the scene asks: its first comment line.
+/// What the scene asks: its first comment line, the licence's apart.
 std::string first_comment(const fs::path& file) {
   std::ifstream stream(file);
   std::string line;
   while (std::getline(stream, line)) {
     const auto text = line.find_first_not_of("# ");
-    if (!line.empty() && line[0] == '#' && text != std::string::npos) return line.substr(text);
+    const bool is_comment = !line.empty() && line[0] == '#' && text != std::string::npos;
+    if (is_comment && line.find("SPDX") == std::string::npos) return line.substr(text);
   }
   return {};
 }

@@ -317,10 +317,10 @@ double WallCurve::stretch_at(double target) const {
   while (true) {
     const double next = here + step;
     if (next < least_stretch || next >= greatest_stretch)
-      throw SolverFailure(
-          fmt::format("the wall has no equilibrium at a pressure of {:.6g} dyn/cm2: it carries at most "
-                      "{:.6g} dyn/cm2, at lumen stretch {:.4g}",
-                      target, pressure(highest), highest));
+      throw SolverFailure(fmt::format(
+          "the wall has no equilibrium at a pressure of {:.6g} dyn/cm2 between lumen stretches {} and {}: "
+          "it carries at most {:.6g} dyn/cm2, at lumen stretch {:.4g}",
+          target, least_stretch, greatest_stretch, pressure(highest), highest));
     if ((gap(next) > 0) != (gap(here) > 0) || gap(next) == 0)
       return find_root(gap, std::min(here, next), std::max(here, next), 1e-14);
     if (step * (pressure(next) - pressure(highest)) > 0) highest = next;

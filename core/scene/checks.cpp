@@ -138,8 +138,8 @@ void SceneReader::check_law(const std::string& prefix, const wall::LawEntry& law
 
 std::vector<std::string> SceneReader::keys_with_sensitivity() const {
   const bool layered = scene_.count("wall.layers") > 0;
-  // Keys whose values layers and families have taken over do nothing by themselves any more; a layer's
-  // fraction cannot change without another one's.
+  // Keys whose values layers and families have taken over do nothing by themselves any more. A layer's
+  // fraction counts relative to their sum.
   const auto is_tied = [&](std::string_view key) {
     const std::size_t end_of_tissue = key.rfind('.') + 1;
     const std::string tissue(key.substr(0, end_of_tissue));
@@ -147,7 +147,6 @@ std::vector<std::string> SceneReader::keys_with_sensitivity() const {
     if (!tissue.starts_with("wall.")) return false;
     if (layered && !tissue.starts_with("wall.layers")) return name != "density";
     if (tissue.find("families") != std::string::npos) return false;
-    if (name == "fraction") return true;
     if (name == "sharpness") return scene_.text(tissue + "recruitment") == "sharp";
     return scene_.count(tissue + "families") > 0 &&
            (name.starts_with("fiber_") || name.starts_with("activation_"));
@@ -155,10 +154,9 @@ std::vector<std::string> SceneReader::keys_with_sensitivity() const {
   std::vector<std::string> keys;
   for (const auto& [key, value] : scene_.values()) {
     if (!std::holds_alternative<double>(value)) continue;
-    const bool of_method =
-        key.starts_with("output.") || key.starts_with("accuracy.") || key.starts_with("time.");
-    const bool of_file = key == "inlet.period" && scene_.text("inlet.waveform").ends_with(".csv");
-    if (!of_method && !of_file && !is_tied(key)) keys.push_back(key);
+    const bool of_method = key.starts_with("output.") || key.starts_with("accuracy.") ||
+                           key.starts_with("time.") || key == "inlet.period";
+    if (!of_method && !is_tied(key)) keys.push_back(key);
   }
   return keys;
 }
@@ -173,8 +171,9 @@ void SceneReader::check_sensitivities() const {
     if (std::find(keys.begin(), keys.end(), key) != keys.end()) continue;
     std::string near = scene::nearest(key, keys);
     if (near.empty()) near = same_name(key, keys);
-    const char* why =
-        !scene::find_parameter(key) ? "is not a key" : "is no number that this scene's results depend on";
+    const char* why = !scene::find_parameter(key)
+                          ? "is not a key"
+                          : "is no number that sensitivities are offered for in this scene";
     refuse(list, fmt::format("{} has {}, which {}{}", list, scene::in_quotes(key), why,
                              near.empty() ? "; name a number key such as outlet.resistance"
                                           : scene::did_you_mean(scene::in_quotes(near))));
