@@ -148,10 +148,42 @@ TEST(RunProgram, TellsWhatItDid) {
   EXPECT_NE(again.output.find("this run is complete"), std::string::npos) << again.output;
 }
 
+TEST(RunProgram, ReplacesAnEarlierRunsReport) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(test_support::tunica({"run", scenes / "cylinder.toml", "--out", "r"}, folder.path()).code, 0);
+  EXPECT_TRUE(fs::exists(folder.path() / "r/report.html"));
+  EXPECT_EQ(
+      test_support::tunica({"run", scenes / "cylinder_exp1.toml", "--out", "r", "--no-report"}, folder.path())
+          .code,
+      0);
+  EXPECT_FALSE(fs::exists(folder.path() / "r/report.html"));
+}
+
+TEST(RunProgram, WritesSensitivitiesOfWhatIsNamed) {
+  const TemporaryFolder folder;
+  const Ended ended = test_support::tunica({"run", scenes / "cylinder.toml", "--out", "r", "--set",
+                                            "sensitivity.parameters=inlet.flow,geometry.radius"},
+                                           folder.path());
+  ASSERT_EQ(ended.code, 0) << ended.errors;
+  const StoredResult stored = read_result(folder.path() / "r");
+  const auto& result = stored.result;
+  EXPECT_EQ(result.sensitivities.rows(), result.observables.rows());
+  EXPECT_EQ(result.event_sensitivities.rows(), result.events.rows());
+  EXPECT_GT(result.events.rows(), 0U);
+  // At the end outflow follows inflow but for what the lumen stores: d(outflow)/d(mean flow) is near 0.95 /
+  // mean.
+  const auto* by_flow = result.sensitivities.find("d(outflow)/d(inlet.flow)");
+  ASSERT_NE(by_flow, nullptr);
+  EXPECT_NEAR(by_flow->values.back() * 0.1217, result.observables.find("outflow")->values.back(), 0.01);
+}
+
 TEST(RunProgram, ListsScenesAndParametersAndHelp) {
   const Ended list = test_support::tunica({"scene", "--list"});
   EXPECT_EQ(list.code, 0);
   for (const auto& name : shipped()) EXPECT_NE(list.output.find(name + ".toml"), std::string::npos) << name;
+  // Each scene is introduced by the question that it asks.
+  EXPECT_EQ(static_cast<std::size_t>(std::count(list.output.begin(), list.output.end(), '?')),
+            shipped().size());
   const Ended parameters = test_support::tunica({"scene", "--parameters"});
   EXPECT_EQ(parameters.output, test_support::read_text(fs::path(TUNICA_SOURCE_DIR) / "docs/parameters.md"));
   for (const std::vector<std::string>& arguments :

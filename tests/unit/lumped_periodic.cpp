@@ -2,9 +2,13 @@
 // Starts: from rest, with and without a ramp, and on the limit cycle.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <fstream>
 #include <iostream>
+#include <numbers>
 
 #include "tests/support/lumped_runs.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace tunica {
 namespace {
@@ -84,6 +88,25 @@ TEST(LumpedStart, LimitCycleOfEveryKindOfNetwork) {
         EXPECT_NEAR(a[k], b[4000 + k], 1e-6 * test_support::range(a)) << name << " row " << k;
     }
   }
+}
+
+// The flow's size is then known from the pressure in the file only.
+TEST(LumpedStart, LimitCycleUnderAPressureFromAFile) {
+  const test_support::TemporaryFolder folder;
+  std::ofstream file(folder.path() / "pressure.csv");
+  file << "time[s],pressure[mmHg]\n";
+  constexpr int intervals = 40;
+  for (int k = 0; k <= intervals; ++k)
+    file << fmt::format("{},{}\n", 0.8 * k / intervals,
+                        100 - 20 * std::cos(2 * std::numbers::pi * k / intervals));
+  file.close();
+  const std::vector<std::string> base{"inlet.waveform=pressure.csv", "lumped.inertance=true",
+                                      "time.start=periodic", "time.beats=1"};
+  const Result result = run_lumped(base, folder.path().string());
+  const auto& pressure = column(result.observables, "pressure");
+  EXPECT_NEAR(pressure.back(), pressure.front(), 1e-6 * test_support::range(pressure));
+  // Poiseuille and inertia take about 1 % of the pressure on the way to the middle.
+  EXPECT_NEAR(*std::max_element(pressure.begin(), pressure.end()) / 1333.22387, 120, 2);
 }
 
 TEST(LumpedStart, AtRestNothingIsLoaded) {
