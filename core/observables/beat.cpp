@@ -38,25 +38,18 @@ std::vector<Switch> switches_from_events(const Table& events, const std::string&
   return switches;
 }
 
-/// Adds the switches that rows show and events do not, as when fibres are on the threshold at rest.
-void add_switches_between_rows(std::vector<Switch>& switches, const std::vector<double>& time,
-                               const std::vector<double>& recruitment) {
-  const std::size_t known = switches.size();
+/// Those that rows show, for a run without events, as when fibres are on the threshold at rest.
+std::vector<Switch> switches_between_rows(const std::vector<double>& time,
+                                          const std::vector<double>& recruitment) {
+  std::vector<Switch> switches;
   for (std::size_t row = 1; row < time.size(); ++row) {
     const double before = recruitment[row - 1] - 0.5;
     const double after = recruitment[row] - 0.5;
     if ((before > 0) == (after > 0)) continue;
-    const double slack = 1e-9 * time.back();
-    const bool is_known = std::any_of(switches.begin(), switches.begin() + known, [&](const Switch& change) {
-      return change.recruited == (after > 0) && change.time >= time[row - 1] - slack &&
-             change.time <= time[row] + slack;
-    });
-    if (is_known) continue;
     const double share = before / (before - after);
     switches.push_back({time[row - 1] + share * (time[row] - time[row - 1]), after > 0});
   }
-  std::stable_sort(switches.begin(), switches.end(),
-                   [](const Switch& a, const Switch& b) { return a.time < b.time; });
+  return switches;
 }
 
 }  // namespace
@@ -134,10 +127,12 @@ std::vector<std::pair<double, double>> recruited_intervals(const Result& result,
   const auto* time = numbers(result.observables, "time");
   const auto* recruitment = numbers(result.observables, "recruitment." + name);
   if (!time || !recruitment || time->empty() || is_none(recruitment->front())) return {};
+  // Tissue that lingers at its threshold has H that wavers about 1/2 in the rows: events go before rows.
   std::vector<Switch> switches = switches_from_events(result.events, name);
-  add_switches_between_rows(switches, *time, *recruitment);
+  const bool has_events = !switches.empty();
+  if (!has_events) switches = switches_between_rows(*time, *recruitment);
   std::vector<std::pair<double, double>> intervals;
-  bool recruited = recruitment->front() > 0.5;
+  bool recruited = has_events ? !switches.front().recruited : recruitment->front() > 0.5;
   double since = time->front();
   const auto close = [&](double end) {
     const double start = std::max(since, from);

@@ -107,6 +107,20 @@ TEST(Beat, RecruitedShareFallsBackOnRows) {
         << "P" << point;
 }
 
+// As in tissue whose stress jumps: it lingers at the threshold and H wavers about 1/2.
+TEST(Beat, EventsGoBeforeRowsThatWaver) {
+  StoredResult run = synthetic_run({});
+  const double share = recruited_share(run.result, 1, last_beat(run));
+  const std::size_t intervals = recruited_intervals(run.result, 1, 0, 1.6).size();
+  const auto& columns = run.result.observables.columns();
+  const auto found = std::find_if(columns.begin(), columns.end(),
+                                  [](const Column& column) { return column.name == "recruitment.P1"; });
+  auto& recruitment = run.result.observables[static_cast<std::size_t>(found - columns.begin())].values;
+  for (std::size_t row = 2; row < recruitment.size(); row += 7) recruitment[row] = 1 - recruitment[row];
+  EXPECT_EQ(recruited_share(run.result, 1, last_beat(run)), share);
+  EXPECT_EQ(recruited_intervals(run.result, 1, 0, 1.6).size(), intervals);
+}
+
 TEST(Beat, IntervalsAreClippedAndOrdered) {
   const StoredResult run = synthetic_run({});
   const auto all = recruited_intervals(run.result, 1, 0, 1.6);
