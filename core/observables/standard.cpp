@@ -94,7 +94,10 @@ Table event_table() {
 }
 
 void append(Table& table, const Event& event) {
-  if (table.columns().size() < 4) throw std::logic_error("append: the table has other columns");
+  const auto& columns = table.columns();
+  if (columns.size() < 4 || columns[1].name != "point" || columns[2].name != "family" ||
+      columns[3].name != "change")
+    throw std::logic_error("append: the table has other columns");
   table[0].values.push_back(event.time);
   table[1].labels.push_back(fmt::format("P{}", event.point));
   table[2].values.push_back(event.family);
