@@ -440,7 +440,7 @@ std::vector<BadScene> inconsistencies() {
       {"sensitivity_to_unused_key",
        scene("[wall]\nlaw = \"EXP1\"\n[sensitivity]\nparameters = [\"wall.activation_stretch\"]\n"),
        {},
-       {"sensitivity.parameters", "wall.activation_stretch", "no number that this scene's"}},
+       {"sensitivity.parameters", "wall.activation_stretch", "no number that sensitivities are offered for"}},
       {"sensitivity_to_method",
        scene("[sensitivity]\nparameters = [\"accuracy.tolerance\"]\n"),
        {},
