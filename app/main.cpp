@@ -43,7 +43,8 @@ int main(int argc, char** argv) {
   run_app->add_option("--out", run.out, "Folder for the results (default: results/NAME)")->type_name("DIR");
   run_app->add_flag("--resume", run.resume, "Go on with a run that was interrupted or killed");
   run_app->add_flag("--quiet", run.quiet, "Print errors only");
-  run_app->add_flag("!--no-report", run.report, "Leave report.html out");
+  run_app->add_flag_callback(
+      "--no-report", [&] { run.report = false; }, "Leave report.html out");
 
   SceneArguments scene;
   auto* scene_app = app.add_subcommand("scene", "Show a scene with every default, unit and meaning");

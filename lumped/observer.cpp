@@ -34,8 +34,8 @@ constexpr Quantity point_quantities[] = {{"radial_displacement", "cm"}, {"fiber_
 
 }  // namespace
 
-Observer::Observer(const Network& network, const std::vector<std::string>& parameters)
-    : network_(network), parameters_(parameters) {
+Observer::Observer(const Network& network, std::vector<std::string> parameters)
+    : network_(network), parameters_(std::move(parameters)) {
   const auto boundaries = radial::layer_boundaries(network.curve().model().ring());
   for (const double xi : network.curve().places()) place_layers_.push_back(radial::layer_at(boundaries, xi));
 }

@@ -12,7 +12,7 @@ namespace tunica::lumped {
 /// Turns states of the network into the tables of a result.
 class Observer {
  public:
-  Observer(const Network& network, const std::vector<std::string>& parameters);
+  Observer(const Network& network, std::vector<std::string> parameters);
 
   /// One row of observables.csv.
   observables::Sample sample(double time, const double* y) const;
