@@ -117,6 +117,37 @@ Tensor<S> isochoric_kirchhoff(const Law<P>& law, const Tensor<S>& displacement_g
       law);
 }
 
+/// True for a law U(J) + W(isochoric deformation), whose hydrostatic part can be interpolated on its own.
+template <class P>
+bool splits_volume(const Law<P>& law) {
+  return std::visit([](const auto& l) { return HasFamilies<std::decay_t<decltype(l)>>; }, law);
+}
+
+/// First Piola-Kirchhoff stress without its hydrostatic part. Throws std::logic_error as isochoric_kirchhoff.
+template <class P, class S>
+Tensor<S> isochoric_piola(const Law<P>& law, const Kinematics<S>& k, const MaterialAxes& axes) {
+  return std::visit(
+      [&](const auto& l) -> Tensor<S> {
+        if constexpr (HasFamilies<std::decay_t<decltype(l)>>)
+          return k.piola_from_kirchhoff(l.isochoric_kirchhoff(k, axes));
+        throw std::logic_error("isochoric_piola: the law has no volumetric split");
+      },
+      law);
+}
+
+/// The volumetric term U(J) of a law that splits it off. Throws std::logic_error as isochoric_kirchhoff.
+template <class P>
+const Volumetric<P>& volumetric(const Law<P>& law) {
+  return std::visit(
+      [](const auto& l) -> const Volumetric<P>& {
+        if constexpr (HasFamilies<std::decay_t<decltype(l)>>) return l.volumetric;
+        throw std::logic_error("volumetric: the law has no volumetric split");
+      },
+      law);
+}
+template <class P>
+const Volumetric<P>& volumetric(const Law<P>&& law) = delete;
+
 /// Stress and tangent dP_k/dH_l, entries row-major in both.
 struct StressAndTangent {
   Tensor<double> stress;

@@ -20,6 +20,13 @@ struct Volumetric {
   S kirchhoff(const Kinematics<S>& k) const {
     return 0.5 * bulk_modulus * (k.jacobian * k.volume_change + k.log_jacobian);
   }
+
+  /// U'(J) for J = 1 + volume_change, the hydrostatic Cauchy stress.
+  template <class S>
+  S slope(const S& volume_change) const {
+    using std::log1p;
+    return 0.5 * bulk_modulus * (volume_change + log1p(volume_change) / (1.0 + volume_change));
+  }
 };
 
 }  // namespace tunica::wall
