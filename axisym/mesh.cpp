@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "axisym/mesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <tuple>
+
+namespace tunica::axisym {
+
+std::string_view name(Part part) {
+  return part == Part::blood ? "blood" : "wall";
+}
+
+std::string_view name(Boundary boundary) {
+  constexpr std::array<std::string_view, 7> names = {"axis",  "inlet",      "outlet",     "interface",
+                                                     "outer", "wall_inlet", "wall_outlet"};
+  return names[static_cast<std::size_t>(boundary)];
+}
+
+std::array<int, 3> Mesh::side_nodes(int cell, int side) const {
+  const auto& nodes = cells[cell].nodes;
+  return {nodes[side], nodes[(side + 1) % corners()], nodes[corners() + side]};
+}
+
+bool Mesh::has(Part part) const {
+  return std::any_of(cells.begin(), cells.end(), [part](const Cell& cell) { return cell.part == part; });
+}
+
+int Mesh::layers() const {
+  int count = 0;
+  for (const Cell& cell : cells)
+    if (cell.part == Part::wall) count = std::max(count, cell.layer + 1);
+  return count;
+}
+
+namespace {
+
+/// Mean height of the nodes of a boundary, weighted by the lengths of its sides; NaN without sides.
+double mean_height(const Mesh& mesh, Boundary boundary) {
+  double length = 0, moment = 0;
+  for (const Edge& edge : mesh.edges) {
+    if (edge.boundary != boundary) continue;
+    const auto nodes = mesh.side_nodes(edge.cell, edge.side);
+    const auto& a = mesh.points[nodes[0]];
+    const auto& b = mesh.points[nodes[1]];
+    const double side = std::hypot(b[0] - a[0], b[1] - a[1]);
+    length += side;
+    moment += side * (a[1] + b[1] + 4 * mesh.points[nodes[2]][1]) / 6;
+  }
+  return moment / length;
+}
+
+}  // namespace
+
+Extent extent(const Mesh& mesh) {
+  if (mesh.has(Part::blood)) return {mean_height(mesh, Boundary::inlet), mean_height(mesh, Boundary::outlet)};
+  return {mean_height(mesh, Boundary::wall_inlet), mean_height(mesh, Boundary::wall_outlet)};
+}
+
+double inlet_radius(const Mesh& mesh) {
+  const bool blood = mesh.has(Part::blood);
+  double radius = blood ? 0 : INFINITY;
+  for (const Edge& edge : mesh.edges) {
+    if (edge.boundary != (blood ? Boundary::inlet : Boundary::wall_inlet)) continue;
+    for (const int node : mesh.side_nodes(edge.cell, edge.side)) {
+      const double r = mesh.points[node][0];
+      radius = blood ? std::max(radius, r) : std::min(radius, r);
+    }
+  }
+  return radius;
+}
+
+std::vector<int> neighbours(const Mesh& mesh) {
+  struct Side {
+    int low, high, index;
+  };
+  const int sides = mesh.sides();
+  std::vector<Side> all;
+  all.reserve(mesh.cells.size() * sides);
+  for (int cell = 0; cell < static_cast<int>(mesh.cells.size()); ++cell) {
+    for (int side = 0; side < sides; ++side) {
+      const auto nodes = mesh.side_nodes(cell, side);
+      all.push_back({std::min(nodes[0], nodes[1]), std::max(nodes[0], nodes[1]), cell * sides + side});
+    }
+  }
+  std::sort(all.begin(), all.end(), [](const Side& a, const Side& b) {
+    return std::tie(a.low, a.high, a.index) < std::tie(b.low, b.high, b.index);
+  });
+  const auto same = [&](std::size_t i, std::size_t k) {
+    return k < all.size() && all[i].low == all[k].low && all[i].high == all[k].high;
+  };
+  std::vector<int> across(all.size(), -1);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (!same(i, i + 1)) continue;
+    if (same(i, i + 2)) throw std::logic_error("neighbours: more than two cells share a side");
+    across[all[i].index] = all[i + 1].index / sides;
+    across[all[i + 1].index] = all[i].index / sides;
+    ++i;
+  }
+  return across;
+}
+
+}  // namespace tunica::axisym
