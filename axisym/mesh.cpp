@@ -19,8 +19,9 @@ std::string_view name(Boundary boundary) {
 }
 
 std::array<int, 3> Mesh::side_nodes(int cell, int side) const {
-  const auto& nodes = cells[cell].nodes;
-  return {nodes[side], nodes[(side + 1) % corners()], nodes[corners() + side]};
+  std::array<int, 3> nodes = element::side_nodes(shape, side);
+  for (int& node : nodes) node = cells[cell].nodes[node];
+  return nodes;
 }
 
 bool Mesh::has(Part part) const {

@@ -5,9 +5,11 @@
 #include <string_view>
 #include <vector>
 
+#include "core/element/cell.hpp"
+
 namespace tunica::axisym {
 
-enum class CellShape { quadrilateral, triangle };  ///< one shape in a mesh
+using element::CellShape;  // one shape in a mesh
 enum class Part { blood, wall };
 /// wall_inlet and wall_outlet are the end faces of the wall.
 enum class Boundary { axis, inlet, outlet, interface, outer, wall_inlet, wall_outlet };
@@ -43,7 +45,7 @@ struct Mesh {
   /// lateral one of a rigid pipe.
   std::vector<Edge> edges;
 
-  int corners() const { return shape == CellShape::quadrilateral ? 4 : 3; }
+  int corners() const { return element::corners(shape); }
   int sides() const { return corners(); }
   int nodes_per_cell() const { return 2 * corners() + 1; }
   int centre_node() const { return 2 * corners(); }  ///< its place in Cell::nodes
