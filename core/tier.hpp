@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/observables/checkpoint.hpp"
 #include "core/observables/result.hpp"
 #include "core/scene/scene.hpp"
 
@@ -21,10 +22,15 @@ struct Progress {
   long newton_iterations = 0;
 };
 
-/// How a caller watches a run and ends it early.
+/// How a caller watches a run, ends it early, keeps where it stood and lets it go on from there.
 struct RunControl {
   std::function<void(const Progress&)> report = [](const Progress&) {};
   std::function<bool()> interrupted = [] { return false; };
+  /// Called by a tier when it has come some way, counted in steps or simulated time and never by the clock,
+  /// so that a resumed run takes the very steps of one that was not disturbed.
+  std::function<void(const Checkpoint&)> save = [](const Checkpoint&) {};
+  /// Where the run is to go on; null to begin. It outlives the run.
+  const Checkpoint* resume = nullptr;
 };
 
 /// A computation that has been set up for a scene, which must outlive it.

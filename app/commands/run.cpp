@@ -14,6 +14,7 @@
 #include "app/tiers.hpp"
 #include "core/error.hpp"
 #include "core/observables/result.hpp"
+#include "core/stored_run.hpp"
 
 namespace tunica {
 
@@ -36,20 +37,6 @@ void ask_to_stop(int) {
   ::_exit(interrupted);
 }
 
-/// With --resume: true when the folder already holds this scene's whole result. A different scene
-/// there is refused, so that no result is mixed from two.
-bool is_finished(const fs::path& folder, const Scene& scene, const Tier& tier) {
-  if (!fs::exists(folder / "record.json")) return false;
-  const StoredResult stored = read_result(folder);
-  if (stored.record.value("scene_toml", "") != describe(scene) ||
-      stored.record.value("tier", "") != tier.name())
-    throw InvalidInput(fmt::format(
-        "{}: holds the result of another scene or tier; leave out --resume to replace it, or name another "
-        "folder with --out",
-        folder.string()));
-  return stored.record.value("converged", false);
-}
-
 }  // namespace
 
 int run_command(const RunArguments& arguments) {
@@ -60,16 +47,15 @@ int run_command(const RunArguments& arguments) {
       arguments.out.empty() ? fs::path("results") / scene.name() : fs::path(arguments.out);
   if (!arguments.quiet)
     for (const auto& remark : scene.remarks()) spdlog::warn(remark);
-  if (arguments.resume && is_finished(folder, scene, tier)) {
-    if (!arguments.quiet) fmt::print("{}: this run is complete\n", folder.string());
-    return done;
-  }
 
   std::signal(SIGINT, ask_to_stop);
   std::signal(SIGTERM, ask_to_stop);
-  // A scene that the tier refuses must leave nothing behind, so the folder is made after this.
-  const std::unique_ptr<TierRun> run = tier.prepare(scene);
-  make_result_folder(folder);
+  // A scene that the tier refuses leaves nothing behind: the folder is made when the run is executed.
+  StoredRun run(tier, scene, folder, arguments.resume);
+  if (run.is_complete()) {
+    if (!arguments.quiet) fmt::print("{}: this run is complete\n", folder.string());
+    return done;
+  }
   setting_up = false;
   Result result;
   {
@@ -77,12 +63,14 @@ int run_command(const RunArguments& arguments) {
     RunControl control;
     control.report = [&](const Progress& progress) { display.show(progress); };
     control.interrupted = [] { return stop_asked.load(); };
-    result = run->execute(control);
+    result = run.execute(control, [&](const std::string& failure) {
+      if (!arguments.quiet) spdlog::warn("the run goes on, but cannot be resumed from here: {}", failure);
+    });
   }
   // A report that was made of an earlier result must not stand beside this one.
   std::error_code no_report;
   fs::remove(folder / report_file, no_report);
-  write_result(folder, scene, result);
+  run.store(result);
   if (arguments.report && result.observables.rows() > 0)
     write_whole(folder / report_file, make_report({read_result(folder)}));
 

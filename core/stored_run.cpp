@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/stored_run.hpp"
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "core/observables/record.hpp"
+
+namespace tunica {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Whether the folder holds a whole result of this scene and tier. That of another one is refused, so
+/// that no result is mixed from two.
+bool holds_whole_result(const fs::path& folder, const Scene& scene, const Tier& tier) {
+  if (!fs::exists(folder / "record.json")) return false;
+  const StoredResult stored = read_result(folder);
+  if (observables::record_text(stored.record, "scene_toml") == describe(scene) &&
+      observables::record_text(stored.record, "tier") == tier.name())
+    return observables::record_flag(stored.record, "converged");
+  // The result that lay here when a run was killed: its checkpoint is younger and says what is computed here.
+  if (has_checkpoint(folder)) return false;
+  throw InvalidInput(fmt::format(
+      "{}: holds the result of another scene or tier; leave out --resume to replace it, or name another "
+      "folder with --out",
+      folder.string()));
+}
+
+}  // namespace
+
+StoredRun::StoredRun(const Tier& tier, const Scene& scene, fs::path folder, bool resume)
+    : tier_(tier), scene_(scene), folder_(std::move(folder)) {
+  if (resume) {
+    if (holds_whole_result(folder_, scene, tier)) return;
+    if (has_checkpoint(folder_)) checkpoint_ = read_checkpoint(folder_, scene, tier.name());
+  }
+  run_ = tier.prepare(scene);
+}
+
+Result StoredRun::execute(RunControl control, const std::function<void(const std::string&)>& not_saved) {
+  make_result_folder(folder_);
+  if (!checkpoint_) remove_checkpoint(folder_);
+  control.resume = checkpoint_ ? &*checkpoint_ : nullptr;
+  control.save = [&](const Checkpoint& checkpoint) {
+    try {
+      write_checkpoint(folder_, scene_, tier_.name(), checkpoint);
+    } catch (const OutputFailure& failure) {
+      not_saved(failure.what());
+    }
+  };
+  return run_->execute(control);
+}
+
+void StoredRun::store(const Result& result) const {
+  write_result(folder_, scene_, result);
+  if (result.record.converged) remove_checkpoint(folder_);
+}
+
+}  // namespace tunica
