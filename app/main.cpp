@@ -41,7 +41,9 @@ int main(int argc, char** argv) {
       ->take_all()
       ->allow_extra_args(false);
   run_app->add_option("--out", run.out, "Folder for the results (default: results/NAME)")->type_name("DIR");
-  run_app->add_flag("--resume", run.resume, "Go on with a run that was interrupted or killed");
+  run_app->add_flag(
+      "--resume", run.resume,
+      "Go on with a run that was interrupted or killed, from its last checkpoint if it left one");
   run_app->add_flag("--quiet", run.quiet, "Print errors only");
   run_app->add_flag_callback(
       "--no-report", [&] { run.report = false; }, "Leave report.html out");
