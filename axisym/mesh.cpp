@@ -35,28 +35,40 @@ int Mesh::layers() const {
   return count;
 }
 
+Image image(const Mesh& mesh, int cell, const element::Local& local) {
+  const element::Shapes shapes = element::shapes_at(mesh.shape, element::Basis::quadratic, local);
+  Image at;
+  for (int n = 0; n < shapes.count; ++n) {
+    const auto& node = mesh.points[mesh.cells[cell].nodes[n]];
+    for (int i = 0; i < 2; ++i) {
+      at.point[i] += shapes.value[n] * node[i];
+      for (int c = 0; c < 2; ++c) at.slope[i][c] += shapes.slope[n][c] * node[i];
+    }
+  }
+  return at;
+}
+
 namespace {
 
-/// Mean height of the nodes of a boundary, weighted by the lengths of its sides; NaN without sides.
-double mean_height(const Mesh& mesh, Boundary boundary) {
-  double length = 0, moment = 0;
+/// Half way between the lowest and the highest node of a boundary; NaN without sides.
+double middle_height(const Mesh& mesh, Boundary boundary) {
+  double low = INFINITY, high = -INFINITY;
   for (const Edge& edge : mesh.edges) {
     if (edge.boundary != boundary) continue;
-    const auto nodes = mesh.side_nodes(edge.cell, edge.side);
-    const auto& a = mesh.points[nodes[0]];
-    const auto& b = mesh.points[nodes[1]];
-    const double side = std::hypot(b[0] - a[0], b[1] - a[1]);
-    length += side;
-    moment += side * (a[1] + b[1] + 4 * mesh.points[nodes[2]][1]) / 6;
+    for (const int node : mesh.side_nodes(edge.cell, edge.side)) {
+      low = std::min(low, mesh.points[node][1]);
+      high = std::max(high, mesh.points[node][1]);
+    }
   }
-  return moment / length;
+  return 0.5 * (low + high);
 }
 
 }  // namespace
 
 Extent extent(const Mesh& mesh) {
-  if (mesh.has(Part::blood)) return {mean_height(mesh, Boundary::inlet), mean_height(mesh, Boundary::outlet)};
-  return {mean_height(mesh, Boundary::wall_inlet), mean_height(mesh, Boundary::wall_outlet)};
+  if (mesh.has(Part::blood))
+    return {middle_height(mesh, Boundary::inlet), middle_height(mesh, Boundary::outlet)};
+  return {middle_height(mesh, Boundary::wall_inlet), middle_height(mesh, Boundary::wall_outlet)};
 }
 
 double inlet_radius(const Mesh& mesh) {

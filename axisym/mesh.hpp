@@ -55,6 +55,14 @@ struct Mesh {
   int layers() const;  ///< of the wall, 0 without one
 };
 
+/// The image of a point of a reference cell under the cell's quadratic map.
+struct Image {
+  element::Local point{};                 ///< (r, z), cm
+  std::array<element::Local, 2> slope{};  ///< slope[i][c] = d point_i/d local_c
+  double determinant() const { return slope[0][0] * slope[1][1] - slope[0][1] * slope[1][0]; }
+};
+Image image(const Mesh& mesh, int cell, const element::Local& local);
+
 /// Where the vessel begins and ends (cm): heights of the inlet and the outlet, or of the middle of the end
 /// faces of a wall alone.
 struct Extent {

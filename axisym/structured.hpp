@@ -33,7 +33,7 @@ struct TubeSpec {
 /// diagonals alternating so that the mesh is its own mirror image about mid-length and that no triangle
 /// has two sides on inlet and interface.
 /// Throws InvalidInput for sizes that are not positive and finite, counts below 1, an odd number of axial
-/// cells, gradings below 1, and more than ten million nodes.
+/// cells, gradings outside 1 to 10^6, and more than ten million nodes.
 Mesh structured_tube(const TubeSpec& spec);
 
 /// End grading that gives half of the axial cells to the two boundary layers in which a clamped shell bends:
