@@ -37,17 +37,18 @@ struct Stage {
 ///                      y_(n+1) = y_n + h ((1-g) r_n + g r_(n+1)),  af = 1/(1+rho).
 ///                    Elimination of y_(n+1) and r_(n+1): c = am/(g af h), history = (1 - am/g) r_n - c y_n.
 ///                    With equal steps am = (3-rho)/(2(1+rho)), g = 1/2 + am - af, and r_n is to second order
-///                    the rate at t_n + s h, s = af - am. A changed step with these am and g would be of
-///                    first order. Let r_n be the rate at t_n + o (o = s h', or 0 for a given rate): then
+///                    the rate at t_n + s h, s = af - am = (rho-1)/(2(1+rho)). When the step changes, these
+///                    am and g would be of first order. With r_n the rate at t_n + o (o = s h', or 0 for a
+///                    rate that was given),
 ///                      am = (af h - o)/(h + s h - o),  g = (h/2 - o)/(h + s h - o)
-///                    keep the second order and make r_(n+1) the rate at t_(n+1) + s h. Where F has no rate
-///                    (or is infinitely stiff), y is multiplied by -rho a step, and r by a factor within [-1,
-///                    0] whatever the ratio of steps. rho = 0 with equal steps is bdf2. Without a rate at the
-///                    start, the first step is one of backward Euler.
+///                    keep the second order and make r_(n+1) the rate at t_(n+1) + s h. Where F has no rate,
+///                    or is infinitely stiff, a step multiplies y by -rho, and r by a factor within [-1, 0]
+///                    for any ratio of steps (-rho for equal ones). With rho = 0 this is bdf2.
+///                    Without a rate at the start, the first step is one of backward Euler.
 ///
-/// Entries without a rate in F (pressures) need no special treatment. For those that are determined only by
-/// a derivative of a constraint (index 2) see docs/theory: their order falls by one under generalized alpha
-/// when steps vary irregularly.
+/// Entries without a rate in F (pressures) are treated as the others. Those that only the derivative of a
+/// constraint determines (index 2) keep the order under bdf2 for any steps; under generalized alpha with
+/// rho > 0 they are of first order after an abrupt change of step, until that has decayed as rho^n.
 class Scheme {
  public:
   /// `spectral_radius` is rho, in [0, 1], used by generalized_alpha only.
@@ -100,7 +101,7 @@ class Scheme {
   /// What a run that is resumed between two steps needs to go on bitwise the same.
   struct Saved {
     double time = 0;
-    int steps = 0;  ///< accepted since the start, counted to 3
+    int steps = 0;  ///< accepted since the start, counted to 2
     bool rate_given = false;
     std::array<double, 2> step_sizes{};
     std::array<double, 2> rate_offsets{};
@@ -114,12 +115,16 @@ class Scheme {
  private:
   bool first_order() const;
   int known_rates() const;
-  void extrapolate(double time);
+  int degree() const;
+  /// The polynomial through the last values at `ahead` of time().
+  void polynomial(double ahead, std::span<double> out) const;
+  void end_rate(std::span<const double> stage_value, std::span<double> out) const;
+  double end_rate_offset() const;
 
   Method method_;
   double af_, shift_, error_constant_;
   double time_ = 0;
-  int steps_ = 0;                              // accepted since the start, counted to 3
+  int steps_ = 0;                              // accepted since the start, counted to 2
   bool rate_given_ = false;                    // at the start
   std::array<double, 2> step_sizes_{};         // of the last steps, the latest first
   std::array<double, 2> rate_offsets_{};       // times of the rates less those of the values

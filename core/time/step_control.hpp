@@ -9,35 +9,43 @@ namespace tunica::time {
 enum class Verdict { accept, retry, give_up };
 
 struct StepOptions {
-  double first = 0;    ///< s, at the start and after each restart; in fixed mode the step
+  double first = 0;    ///< s, at the start and, at most, after each restart; in fixed mode every step
   double minimum = 0;  ///< s
   double maximum = 0;  ///< s
   bool fixed = false;  ///< errors are not looked at
   double safety = 0.9;
-  double growth = 2;  ///< greatest ratio of a step to the one before
-  /// A step whose wanted ratio to the present one lies within is left as it is: another coefficient costs
+  double growth = 2;  ///< greatest ratio of a step to the one before; bdf2 needs less than 2.41
+  /// The step wanted is changed only when its ratio to the present one is outside, as another step costs
   /// a factorisation.
   double keep_from = 0.9, keep_to = 1.3;
 };
 
-/// Chooses steps. For each step:
+/// Chooses steps. For each:
 ///   const Step step = control.next(time, stop);
-///   solve; where that fails, control.solve_failed(), otherwise control.judge(norm of the error, its order).
+///   then control.judge(norm of the error, its order) where it was solved, else control.solve_failed().
 ///
-/// An error norm of 1 is the limit; steps above it are rejected. A PI controller (Gustafsson 1991) wants
-///   h_new = h safety err^(-0.7/(p+1)) err_before^(0.4/(p+1))
-/// after an accepted step and h safety err^(-1/(p+1)) after a rejected one. The time to the next stop is
-/// always divided evenly, so that steps stay equal until a stop, which is met exactly and without a sliver.
-/// A step that cannot be solved is halved, and quartered when it fails again; steps then do not grow for a
-/// while. In fixed mode such a step is divided, and its end is met; then steps are as before.
+/// A step is accepted when the norm of its error is at most 1. With errors of the order h^(p+1), the next
+/// step is the smaller of
+///   h safety err^(-1/(p+1))                                      (elementary)
+///   h safety err^(-1/(p+1)) (h/h_before) (err_before/err)^(1/(p+1))   (predictive, Gustafsson 1994)
+/// the latter after two accepted steps in a row. A PI controller would not do: where steps are left as they
+/// are, its answer to a small error is too weak to leave the band.
+///
+/// The time to the stop is divided evenly, by the whole number of steps that comes closest to the step
+/// wanted without exceeding it (but for a tenth of a step in all). So steps stay equal up to the stop, it is
+/// met exactly, and the last step is no sliver.
+///
+/// A step that cannot be solved is halved, and quartered when it fails again; the next steps do not grow. In
+/// fixed mode its end is met by the smaller steps, and steps are then as before.
 class StepControl {
  public:
-  /// Throws InvalidInput unless 0 < minimum <= first <= maximum.
+  /// Throws std::logic_error unless 0 < minimum <= first <= maximum and growth > keep_to > 1 > keep_from.
   explicit StepControl(const StepOptions& options);
 
   /// The step to try from `time`, not beyond `stop` > time.
   Step next(double time, double stop);
-  /// The step was solved, with this norm of its error. Order 0: no estimate, the step is accepted.
+  /// The step was solved, with this norm of its error, of the given order p. Order 0: there is no estimate;
+  /// the step is accepted and the next is as long. A norm that is not finite rejects.
   Verdict judge(double error, int order);
   /// The equations of the step were not solved.
   Verdict solve_failed();
@@ -52,23 +60,27 @@ class StepControl {
 
   /// What a run that is resumed between two steps needs to go on bitwise the same.
   struct Saved {
-    double size = 0;          ///< of the steps wanted
-    double tried = 0;         ///< of the last step that next() gave
+    double wanted = 0;        ///< step
+    double tried = 0;         ///< the last that next() gave
     double tried_end = 0;     ///< its end
-    double accepted = 0;      ///< of the last step accepted since the start, 0: none
-    double error_before = 0;  ///< of the last step accepted, 0: none
-    int order_before = 0;
-    double cell_end = 0;  ///< fixed mode: end of the step that is divided, if `divided`
-    bool divided = false;
-    int failures = 0;    ///< solver's, since the last accepted step
-    int rejections = 0;  ///< by error, since the last accepted step
-    int hold = 0;        ///< accepted steps to come that do not grow
+    double regular = 0;       ///< fixed mode: the last that was not divided
+    double cell_end = 0;      ///< fixed mode: end of the step that is divided
+    bool divided = false;     ///< fixed mode: whether one is
+    double accepted = 0;      ///< the last step accepted since the (re)start, 0: none
+    double error_before = 0;  ///< its error
+    int order_before = 0;     ///< the order of that error, 0: none
+    int failed = 0;           ///< times that the present step could not be solved
+    int rejected = 0;         ///< times that its error was too large
+    int hold = 0;             ///< accepted steps to come that do not grow
     Counts counts;
   };
   const Saved& save() const { return state_; }
   void restore(const Saved& saved) { state_ = saved; }
 
  private:
+  void accept(double error, int order);
+  bool at_floor() const;
+
   StepOptions options_;
   Saved state_;
 };
