@@ -2,7 +2,10 @@
 #pragma once
 
 #include <Eigen/SparseCore>
+#include <array>
+#include <optional>
 #include <span>
+#include <vector>
 
 #include "axisym/layout.hpp"
 #include "axisym/tables.hpp"
@@ -11,8 +14,8 @@ namespace tunica::axisym {
 
 using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor>;
 
-/// What a time scheme makes of the state at the time where the equations hold: rate = coefficient y + history for
-/// every entry. Coefficient 0 and history 0 give the steady equations.
+/// What a time scheme makes of the state at the time where the equations hold: rate = coefficient y + history
+/// for every entry. Coefficient 0 and history 0 give the steady equations.
 struct Stage {
   double time = 0;
   double coefficient = 0;
@@ -28,8 +31,8 @@ struct LeastJacobian {
 /// Residual of the coupled equations and its derivative by the unknowns.
 ///
 /// Rows are numbered as the unknowns: displacement on the wall <- momentum of wall and blood together;
-/// displacement in the blood <- mesh motion; velocity <- momentum of the blood; pressure <- continuity; scalars <-
-/// their own equations. The derivative is exact, by duals, the motion of the mesh included.
+/// displacement in the blood <- mesh motion; velocity <- momentum of the blood; pressure <- continuity;
+/// scalars <- their own equations. The derivative is exact, by duals, the motion of the mesh included.
 class Assembler {
  public:
   explicit Assembler(const Problem& problem);
@@ -56,16 +59,41 @@ class Assembler {
   double flow(const Stage& stage, std::span<const double> y, Boundary boundary) const;
 
  private:
-  struct Target;
-  struct CellTargets;
+  /// Unknowns of a cell's or side's test and trial functions, -1 where there is none, [component][function].
+  struct Numbers {
+    std::array<std::array<int, cell_width>, 2> momentum, mesh, velocity, displacement;
+    std::array<int, cell_width> continuity, pressure;
+    std::array<bool, cell_width> adheres;  ///< the velocity is the rate of the displacement
+  };
+  /// A cell's or side's numbers, and the places in the matrix of its entries in the order in which scatter()
+  /// visits them.
+  struct Targets {
+    Numbers numbers;
+    std::vector<int> places;
+  };
+  struct ScalarRow {
+    std::size_t entry;  ///< of y
+    double factor;      ///< on the flow out
+  };
 
+  Numbers cell_numbers(int cell) const;
+  Numbers side_numbers(const SideTable& side) const;
   void build_pattern();
+  std::vector<ScalarRow> scalar_rows(Boundary boundary) const;
+  /// Entry of y that holds the pressure on a boundary, none when there is no such unknown.
+  std::optional<std::size_t> pressure_entry(Boundary boundary) const;
+  bool is_loaded(const SideTable& side) const;
+  double pressure_on(const SideTable& side, const Stage& stage, std::span<const double> y) const;
+
+  void add_sides(const Stage& stage, std::span<const double> y, std::span<double> residual) const;
+  void add_scalars(const Stage& stage, std::span<const double> y, std::span<double> residual) const;
+  void add_loads(double time, std::span<double> residual) const;
 
   const Problem& problem_;
   Layout layout_;
   Tables tables_;
   SparseMatrix pattern_;
-  std::vector<CellTargets> blood_targets_, wall_targets_, side_targets_;
+  std::vector<Targets> blood_targets_, wall_targets_, side_targets_;
   mutable LeastJacobian least_;
 };
 

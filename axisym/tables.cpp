@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/error.hpp"
+#include "core/quadrature.hpp"
 
 namespace tunica::axisym {
 
@@ -122,7 +123,6 @@ SideTable side_table(const Problem& problem, const Edge& edge) {
                   quadratic ? 3 : 2,
                   mesh.side_nodes(edge.cell, edge.side),
                   {}};
-  const auto [first, second, middle] = table.nodes;
   for (const auto& q : gauss_legendre(quadratic ? 3 : 2)) {
     const double s = q.position;
     std::array<double, 3> value, slope;

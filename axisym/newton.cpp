@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "axisym/newton.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/UmfPackSupport>
+#include <algorithm>
+#include <cmath>
+
+namespace tunica::axisym {
+
+struct Newton::Factors {
+  Eigen::UmfPackLU<SparseMatrix> lu;
+  bool analysed = false;
+};
+
+Newton::Newton(const Assembler& assembler)
+    : assembler_(assembler),
+      matrix_(assembler.pattern()),
+      factors_(std::make_unique<Factors>()),
+      residual_(assembler.layout().unknowns()),
+      weights_(assembler.layout().unknowns()) {
+  // The corrections are repeated anyway, so that refining each solution would only cost time.
+  factors_->lu.umfpackControl()[UMFPACK_IRSTEP] = 0;
+}
+
+Newton::~Newton() = default;
+
+void Newton::forget() {
+  factorised_ = false;
+}
+
+double Newton::factor_entries() const {
+  return factorised_ ? static_cast<double>(factors_->lu.matrixL().nonZeros()) : 0;
+}
+
+bool Newton::evaluate(const Stage& stage, std::span<double> y) {
+  ++counts_.residuals;
+  assembler_.complete(stage, y);
+  return assembler_.residual(stage, y, residual_);
+}
+
+bool Newton::factorise(const Stage& stage, std::span<double> y) {
+  assembler_.tangent(stage, y, matrix_);
+  if (!factors_->analysed) factors_->lu.analyzePattern(matrix_);
+  factors_->analysed = true;
+  factors_->lu.factorize(matrix_);
+  ++counts_.factorisations;
+  factorised_ = factors_->lu.info() == Eigen::Success;
+  return factorised_;
+}
+
+void Newton::correct(std::vector<double>& correction) const {
+  correction.resize(residual_.size());
+  const Eigen::Map<const Eigen::VectorXd> r(residual_.data(), static_cast<Eigen::Index>(residual_.size()));
+  Eigen::Map<Eigen::VectorXd> x(correction.data(), static_cast<Eigen::Index>(correction.size()));
+  x = -factors_->lu.solve(r);
+}
+
+void Newton::add(std::span<double> y, double factor, const std::vector<double>& correction) const {
+  const Layout& layout = assembler_.layout();
+  for (int u = 0; u < layout.unknowns(); ++u) y[layout.entry(u)] += factor * correction[u];
+}
+
+void Newton::measure(std::span<const double> y) {
+  const Layout& layout = assembler_.layout();
+  for (std::size_t e = 0; e < layout.size(); ++e) {
+    double& size = e < layout.velocity_begin()   ? sizes_.displacement
+                   : e < layout.pressure_begin() ? sizes_.velocity
+                                                 : sizes_.pressure;
+    size = std::max(size, std::abs(y[e]));
+  }
+  const auto inverse = [](double size) { return size > 0 ? 1 / size : 0.0; };
+  const double d = inverse(sizes_.displacement), v = inverse(sizes_.velocity), p = inverse(sizes_.pressure);
+  for (int u = 0; u < layout.unknowns(); ++u) {
+    const std::size_t e = layout.entry(u);
+    weights_[u] = e < layout.velocity_begin() ? d : e < layout.pressure_begin() ? v : p;
+  }
+}
+
+double Newton::norm(const std::vector<double>& correction) const {
+  double greatest = 0;
+  for (std::size_t u = 0; u < correction.size(); ++u) {
+    const double scaled = std::abs(correction[u]) * weights_[u];
+    if (std::isnan(scaled)) return scaled;
+    greatest = std::max(greatest, scaled);
+  }
+  return greatest;
+}
+
+double Newton::inner(const std::vector<double>& a, const std::vector<double>& b) const {
+  double sum = 0;
+  for (std::size_t u = 0; u < a.size(); ++u) sum += a[u] * b[u] * weights_[u] * weights_[u];
+  return sum;
+}
+
+NewtonReport Newton::solve(const Stage& stage, std::span<double> y, const NewtonOptions& options) {
+  NewtonReport report;
+  std::vector<double> begin(y.begin(), y.end());
+  if (!evaluate(stage, y)) {
+    report.failure = "the guess turns cells inside out";
+    return report;
+  }
+  if (std::all_of(residual_.begin(), residual_.end(), [](double r) { return r == 0; })) {
+    report.converged = true;
+    return report;
+  }
+  if (factorised_) {
+    const Outcome outcome = iterate(stage, y, options, report);
+    if (outcome == Outcome::converged) {
+      report.converged = true;
+      return report;
+    }
+    if (outcome == Outcome::failed) std::copy(begin.begin(), begin.end(), y.begin());
+    if (!evaluate(stage, y)) {
+      std::copy(begin.begin(), begin.end(), y.begin());
+      evaluate(stage, y);
+    }
+  }
+  while (report.iterations < options.most_iterations) {
+    if (!factorise(stage, y)) {
+      report.failure = "the derivative is singular";
+      return report;
+    }
+    bool converged = false;
+    if (!damped_step(stage, y, options, report, converged)) return report;
+    if (!converged) {
+      const std::vector<double> good(y.begin(), y.end());
+      const Outcome outcome = iterate(stage, y, options, report);
+      converged = outcome == Outcome::converged;
+      if (outcome == Outcome::failed) std::copy(good.begin(), good.end(), y.begin());
+      if (!converged) evaluate(stage, y);
+    }
+    if (converged) {
+      report.converged = true;
+      return report;
+    }
+  }
+  report.failure = fmt::format("no convergence in {} iterations", report.iterations);
+  return report;
+}
+
+Newton::Outcome Newton::iterate(const Stage& stage, std::span<double> y, const NewtonOptions& options,
+                                NewtonReport& report) {
+  // Iterations that a new factorisation is worth, and convergence that never pays.
+  constexpr double patience = 9, slowest = 0.7;
+  std::vector<std::vector<double>> steps;
+  std::vector<double> squares;
+  std::vector<double> z;
+  double before = 0;
+  while (report.iterations < options.most_iterations) {
+    correct(z);
+    for (std::size_t j = 0; j + 1 < steps.size(); ++j) {
+      const double factor = inner(steps[j], z) / squares[j];
+      for (std::size_t u = 0; u < z.size(); ++u) z[u] += factor * steps[j + 1][u];
+    }
+    if (!steps.empty()) {
+      const double share = inner(steps.back(), z) / squares.back();
+      if (share >= 0.9) return Outcome::slow;
+      for (double& entry : z) entry /= 1 - share;
+    }
+    measure(y);
+    const double size = norm(z);
+    if (!std::isfinite(size)) return Outcome::failed;
+    ++counts_.iterations;
+    ++report.iterations;
+    const double contraction = before > 0 ? size / before : 0;
+    if (before > 0 && contraction >= 2) return Outcome::failed;
+    add(y, 1.0, z);
+    const bool small = before > 0
+                           ? contraction < 1 && size * contraction / (1 - contraction) <= options.tolerance
+                           : size <= 0.01 * options.tolerance;
+    if (small) {
+      assembler_.complete(stage, y);
+      measure(y);
+      return Outcome::converged;
+    }
+    if (before > 0 && size > options.tolerance) {
+      if (contraction > slowest) return Outcome::slow;
+      if (std::log(options.tolerance / size) / std::log(contraction) > patience) return Outcome::slow;
+    }
+    if (!evaluate(stage, y)) return Outcome::failed;
+    squares.push_back(inner(z, z));
+    if (squares.back() == 0) return Outcome::converged;
+    steps.push_back(z);
+    before = size;
+  }
+  return Outcome::slow;
+}
+
+bool Newton::damped_step(const Stage& stage, std::span<double> y, const NewtonOptions& options,
+                         NewtonReport& report, bool& converged) {
+  constexpr double smallest = 1.0 / 256;
+  std::vector<double> step, simplified;
+  correct(step);
+  const std::vector<double> from(y.begin(), y.end());
+  ++counts_.iterations;
+  ++report.iterations;
+  for (double factor = 1; factor >= smallest; factor /= 2) {
+    std::copy(from.begin(), from.end(), y.begin());
+    add(y, factor, step);
+    if (!evaluate(stage, y)) continue;
+    correct(simplified);
+    measure(y);
+    const double size = norm(step), next = norm(simplified);
+    if (!std::isfinite(size) || !std::isfinite(next)) continue;
+    if (factor == 1 && next <= options.tolerance && next <= 0.5 * size) {
+      add(y, 1.0, simplified);
+      assembler_.complete(stage, y);
+      measure(y);
+      converged = true;
+      return true;
+    }
+    if (next <= (1 - factor / 4) * size || size <= options.tolerance) return true;
+  }
+  const LeastJacobian& least = assembler_.least_jacobian();
+  report.failure = least.value > 0 ? "no step towards a solution was found"
+                                   : "every step towards a solution turns cells inside out";
+  return false;
+}
+
+}  // namespace tunica::axisym

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "axisym/assembler.hpp"
+
+namespace tunica::axisym {
+
+struct NewtonOptions {
+  /// Error allowed in each field (displacement, velocity, pressure), relative to the greatest value of that
+  /// field.
+  double tolerance = 1e-8;
+  int most_iterations = 60;
+};
+
+struct NewtonReport {
+  bool converged = false;
+  int iterations = 0;
+  std::string failure;  ///< why it did not converge
+};
+
+/// Counts since the solver was made.
+struct NewtonCounts {
+  long iterations = 0, factorisations = 0, residuals = 0;
+};
+
+/// Newton's method for the coupled equations of one stage.
+///
+/// A factorised derivative (UMFPACK) is kept from iteration to iteration and from step to step, and improved
+/// by Broyden's rank-one updates (Kelley, Solving Nonlinear Equations with Newton's Method, SIAM 2003), for
+/// as long as that converges well: a factorisation costs as much as many iterations. Otherwise the derivative
+/// is computed anew, and iterations that would not approach the solution are damped by the natural
+/// monotonicity test (Deuflhard, Newton Methods for Nonlinear Problems, Springer 2004).
+class Newton {
+ public:
+  explicit Newton(const Assembler& assembler);
+  ~Newton();
+  Newton(const Newton&) = delete;
+  Newton& operator=(const Newton&) = delete;
+
+  /// Solves for the unknowns in `y`, from the values that it holds. Prescribed entries and the wall's
+  /// velocities are put in place. When it does not converge, y is of no use.
+  NewtonReport solve(const Stage& stage, std::span<double> y, const NewtonOptions& options);
+
+  /// Drops the factorisation, so that what follows does not depend on what came before.
+  void forget();
+
+  /// Greatest absolute values of displacement, velocity and pressure so far, which errors are measured by.
+  /// Part of the state of a run.
+  struct Sizes {
+    double displacement = 0, velocity = 0, pressure = 0;
+  };
+  const Sizes& sizes() const { return sizes_; }
+  void set_sizes(const Sizes& sizes) { sizes_ = sizes; }
+
+  const NewtonCounts& counts() const { return counts_; }
+  /// Entries of the latest factorisation.
+  double factor_entries() const;
+
+ private:
+  struct Factors;
+  enum class Outcome { converged, slow, failed };
+
+  bool evaluate(const Stage& stage, std::span<double> y);
+  bool factorise(const Stage& stage, std::span<double> y);
+  /// correction = -(derivative)^-1 residual
+  void correct(std::vector<double>& correction) const;
+  void add(std::span<double> y, double factor, const std::vector<double>& correction) const;
+  void measure(std::span<const double> y);
+  double norm(const std::vector<double>& correction) const;
+  double inner(const std::vector<double>& a, const std::vector<double>& b) const;
+  Outcome iterate(const Stage& stage, std::span<double> y, const NewtonOptions& options,
+                  NewtonReport& report);
+  bool damped_step(const Stage& stage, std::span<double> y, const NewtonOptions& options,
+                   NewtonReport& report, bool& converged);
+
+  const Assembler& assembler_;
+  SparseMatrix matrix_;
+  std::unique_ptr<Factors> factors_;
+  bool factorised_ = false;
+  std::vector<double> residual_, weights_;
+  Sizes sizes_;
+  NewtonCounts counts_;
+};
+
+}  // namespace tunica::axisym

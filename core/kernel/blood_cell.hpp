@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/kernel/contract.hpp"
+#include "core/physics/blood.hpp"
+#include "core/physics/mesh_motion.hpp"
+
+namespace tunica::kernel {
+
+/// Shape functions and weight at a quadrature point of a blood cell. Velocity and mesh displacement may
+/// have different bases.
+template <class Frame, int Width>
+struct BloodPoint {
+  double weight = 0;  ///< reference volume
+  std::array<double, Frame::dimension> place{};
+  Lifted<Frame, Width> velocity, displacement, pressure;
+};
+
+/// Nodal values in a blood cell; rates are those that the time scheme makes of the unknowns.
+template <class Frame, int Width>
+struct BloodNodes {
+  NodalVector<Frame, Width> velocity, acceleration, displacement, mesh_velocity;
+  double pressure[Width] = {};
+};
+
+struct BloodParameters {
+  physics::Blood blood;
+  double rate_coefficient = 0;  ///< d(rate)/d(unknown) of the time scheme, 1/s
+  double mesh_stiffness = 1;
+  /// Equal linear bases: size of the cell, cm, for the pressure stabilisation; 0 leaves it out.
+  double stabilised_size = 0;
+};
+
+/// Residuals of momentum, mesh motion and continuity, tested with every shape function.
+template <class Frame, int Width>
+struct BloodResidual {
+  NodalVector<Frame, Width> momentum, mesh;
+  double continuity[Width] = {};
+  double least_jacobian = 1;  ///< of the mesh motion at the quadrature points
+};
+
+template <class Frame, int Width>
+struct BloodTangent {
+  static constexpr int n = Frame::components;
+  Block<Width> momentum_velocity[n][n], momentum_displacement[n][n], momentum_pressure[n][1];
+  Block<Width> mesh_displacement[n][n];
+  Block<Width> continuity_velocity[1][n], continuity_displacement[1][n], continuity_pressure[1][1];
+};
+
+namespace detail {
+
+template <class Frame, int Width>
+physics::BloodState<double> blood_state(const BloodPoint<Frame, Width>& at,
+                                        const BloodNodes<Frame, Width>& nodes) {
+  physics::BloodState<double> state;
+  state.velocity = field_value(at.velocity, nodes.velocity);
+  state.velocity_gradient = field_gradient(at.velocity, nodes.velocity);
+  state.acceleration = field_value(at.velocity, nodes.acceleration);
+  state.pressure = interpolate(at.pressure.lift[0], nodes.pressure);
+  state.mesh_velocity = field_value(at.displacement, nodes.mesh_velocity);
+  state.mesh_gradient = field_gradient(at.displacement, nodes.displacement);
+  return state;
+}
+
+template <class Frame, int Width>
+Vector<double> pressure_gradient(const BloodPoint<Frame, Width>& at, const BloodNodes<Frame, Width>& nodes) {
+  Vector<double> gradient{};
+  for (int k = 0; k < Frame::dimension; ++k)
+    gradient[Frame::axes[k]] = interpolate(at.pressure.lift[1 + k], nodes.pressure);
+  return gradient;
+}
+
+inline double stabilisation(const BloodParameters& parameters, const Vector<double>& velocity) {
+  return physics::stabilisation_time(parameters.blood, parameters.rate_coefficient,
+                                     std::sqrt(dot(velocity, velocity)), parameters.stabilised_size);
+}
+
+}  // namespace detail
+
+template <class Frame, int Width>
+void add_blood_residual(const BloodParameters& parameters, const BloodPoint<Frame, Width>& at,
+                        const BloodNodes<Frame, Width>& nodes, BloodResidual<Frame, Width>& residual) {
+  const auto state = detail::blood_state(at, nodes);
+  const auto balance = physics::blood_balance(parameters.blood, state);
+  residual.least_jacobian = std::min(residual.least_jacobian, 1 + volume_change(state.mesh_gradient));
+  test_vector(at.weight, balance.force, balance.stress, at.velocity, residual.momentum);
+  test_vector(at.weight, Vector<double>{},
+              physics::mesh_motion_flux(parameters.mesh_stiffness, state.mesh_gradient), at.displacement,
+              residual.mesh);
+  for (int k = 0; k < Width; ++k)
+    residual.continuity[k] += at.weight * balance.volume_rate * at.pressure.lift[0][k];
+  if (parameters.stabilised_size <= 0) return;
+  const auto flux = physics::pressure_stabilisation(detail::stabilisation(parameters, state.velocity), state,
+                                                    balance, detail::pressure_gradient(at, nodes));
+  for (int a = 0; a < Frame::dimension; ++a)
+    for (int k = 0; k < Width; ++k)
+      residual.continuity[k] += at.weight * flux[Frame::axes[a]] * at.pressure.lift[1 + a][k];
+}
+
+/// Adds the derivative of the residual at a quadrature point, those by the motion of the mesh included. The
+/// time of the pressure stabilisation is taken as constant.
+template <class Frame, int Width>
+void add_blood_tangent(const BloodParameters& parameters, const BloodPoint<Frame, Width>& at,
+                       const BloodNodes<Frame, Width>& nodes, BloodTangent<Frame, Width>& tangent) {
+  constexpr int n = Frame::components, g = gradient_size<Frame>, m = Frame::dimension;
+  constexpr int velocity = 0, displacement = n + g, pressure = 2 * (n + g), inputs = pressure + 1 + m;
+  using D = Dual<double, inputs>;
+  const auto plain_state = detail::blood_state(at, nodes);
+  const double c = parameters.rate_coefficient;
+  physics::BloodState<D> state;
+  state.velocity = seed_vector<Frame, inputs>(plain_state.velocity, velocity);
+  state.velocity_gradient = seed_gradient<Frame, inputs>(plain_state.velocity_gradient, velocity + n);
+  state.acceleration = seed_vector<Frame, inputs>(plain_state.acceleration, velocity, c);
+  state.mesh_velocity = seed_vector<Frame, inputs>(plain_state.mesh_velocity, displacement, c);
+  state.mesh_gradient = seed_gradient<Frame, inputs>(plain_state.mesh_gradient, displacement + n);
+  state.pressure = D::variable(plain_state.pressure, pressure);
+  const auto balance = physics::blood_balance(parameters.blood, state);
+
+  constexpr auto vectors = vector_slots<Frame>();
+  constexpr auto scalars = scalar_slots<Frame>();
+  constexpr std::array<Slot, 1> value{{{0, 0}}};
+  const auto momentum = [&](int from) {
+    return [&, from](int out, int in) {
+      return out < n ? balance.force[Frame::axes[out]].derivative[from + in]
+                     : balance.stress.entries[Frame::gradient[out - n].entry].derivative[from + in];
+    };
+  };
+  contract(at.weight, vectors, vectors, momentum(velocity), at.velocity, at.velocity,
+           tangent.momentum_velocity);
+  contract(at.weight, vectors, vectors, momentum(displacement), at.velocity, at.displacement,
+           tangent.momentum_displacement);
+  contract(at.weight, vectors, value, momentum(pressure), at.velocity, at.pressure,
+           tangent.momentum_pressure);
+  const auto mesh = [&](int out, int in) { return out == in && out >= n ? parameters.mesh_stiffness : 0.0; };
+  contract(at.weight, vectors, vectors, mesh, at.displacement, at.displacement, tangent.mesh_displacement);
+
+  if (parameters.stabilised_size <= 0) {
+    const auto continuity = [&](int from) {
+      return [&, from](int, int in) { return balance.volume_rate.derivative[from + in]; };
+    };
+    contract(at.weight, value, vectors, continuity(velocity), at.pressure, at.velocity,
+             tangent.continuity_velocity);
+    contract(at.weight, value, vectors, continuity(displacement), at.pressure, at.displacement,
+             tangent.continuity_displacement);
+    return;
+  }
+  Vector<D> pressure_gradient;
+  const auto plain_gradient = detail::pressure_gradient(at, nodes);
+  for (int i = 0; i < 3; ++i) pressure_gradient[i] = D(plain_gradient[i]);
+  for (int k = 0; k < m; ++k) pressure_gradient[Frame::axes[k]].derivative[pressure + 1 + k] = 1;
+  const auto flux = physics::pressure_stabilisation(detail::stabilisation(parameters, plain_state.velocity),
+                                                    state, balance, pressure_gradient);
+  const auto continuity = [&](int from) {
+    return [&, from](int out, int in) {
+      return out == 0 ? balance.volume_rate.derivative[from + in]
+                      : flux[Frame::axes[out - 1]].derivative[from + in];
+    };
+  };
+  contract(at.weight, scalars, vectors, continuity(velocity), at.pressure, at.velocity,
+           tangent.continuity_velocity);
+  contract(at.weight, scalars, vectors, continuity(displacement), at.pressure, at.displacement,
+           tangent.continuity_displacement);
+  contract(at.weight, scalars, scalars, continuity(pressure), at.pressure, at.pressure,
+           tangent.continuity_pressure);
+}
+
+}  // namespace tunica::kernel
