@@ -428,7 +428,7 @@ void Assembler::add_scalars(const Stage& stage, std::span<const double> y, std::
 
 void Assembler::add_loads(double time, std::span<double> residual) const {
   const Loads& loads = problem_.loads;
-  const auto apply = [&](const auto& function, double weight, const Place& place, const auto& shapes,
+  const auto apply = [&](const auto& function, double weight, const Point& place, const auto& shapes,
                          const auto& rows) {
     if (!function) return;
     Vector<double> force = function(place, time);

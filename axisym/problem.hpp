@@ -12,7 +12,7 @@
 
 namespace tunica::axisym {
 
-using Place = std::array<double, 2>;  ///< (r, z) in the reference mesh, cm
+using Point = std::array<double, 2>;  ///< (r, z) in the reference mesh, cm
 
 /// Bases of velocity, displacement and pressure.
 ///   quadratic  velocity and displacement quadratic, blood pressure continuous and linear (Taylor-Hood), wall
@@ -64,9 +64,9 @@ struct OutletCondition {
 /// Loads besides those of a vessel, per unit reference volume or area: manufactured solutions and exact ones.
 /// Empty ones are none.
 struct Loads {
-  std::function<Vector<double>(const Place&, double time)> blood_force, wall_force, mesh_force;
-  std::function<double(const Place&, double time)> blood_volume;  ///< J div v is this instead of 0
-  std::function<Vector<double>(const Place&, double time, Boundary)> traction;
+  std::function<Vector<double>(const Point&, double time)> blood_force, wall_force, mesh_force;
+  std::function<double(const Point&, double time)> blood_volume;  ///< J div v is this instead of 0
+  std::function<Vector<double>(const Point&, double time, Boundary)> traction;
 };
 
 /// Everything that is computed with: a vessel in the frame (r, theta, z), or its blood or its wall alone.
@@ -83,7 +83,7 @@ struct Problem {
   std::function<double(double time)> lumen_pressure = [](double) { return 0.0; };
   std::array<Prescribed, 7> prescribed{axis()};  ///< by Boundary; on the axis nothing moves across it
   /// Values where they are prescribed; empty for zero.
-  std::function<Vector<double>(const Place&, double time)> displacement, velocity;
+  std::function<Vector<double>(const Point&, double time)> displacement, velocity;
   Loads loads;
 
   Prescribed& on(Boundary boundary) { return prescribed[static_cast<std::size_t>(boundary)]; }

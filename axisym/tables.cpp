@@ -25,7 +25,7 @@ Basis velocity_basis(Element element) {
 
 /// The map from local coordinates to (r, z) at a point.
 struct Map {
-  Place place{};
+  Point place{};
   double jacobian[2][2] = {};  ///< d(place i)/d(local j)
   double determinant = 0;
 
@@ -181,7 +181,7 @@ Tables tabulate(const Problem& problem) {
 }
 
 kernel::Lifted<Frame, cell_width> lifted_at(const Mesh& mesh, Element element, int cell,
-                                            const std::array<double, 2>& local, Place* place) {
+                                            const std::array<double, 2>& local, Point* place) {
   const Shapes shapes = element::shapes_at(mesh.shape, geometry_basis(element), local);
   const Map map(mesh, mesh.cells[cell], shapes);
   if (place) *place = map.place;

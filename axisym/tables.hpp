@@ -60,6 +60,6 @@ Tables tabulate(const Problem& problem);
 
 /// Lifts of shape functions at a local point of a cell, for observers: the displacement's basis.
 kernel::Lifted<Frame, cell_width> lifted_at(const Mesh& mesh, Element element, int cell,
-                                            const std::array<double, 2>& local, Place* place = nullptr);
+                                            const std::array<double, 2>& local, Point* place = nullptr);
 
 }  // namespace tunica::axisym

@@ -8,12 +8,12 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/observables/stops.hpp"
 #include "lumped/integrator.hpp"
 #include "lumped/limit_cycle.hpp"
 #include "lumped/network.hpp"
 #include "lumped/observer.hpp"
 #include "lumped/recruitment_log.hpp"
-#include "lumped/stops.hpp"
 #include "lumped/wall_fields.hpp"
 
 namespace tunica::lumped {
@@ -44,7 +44,7 @@ class LumpedRun final : public TierRun {
         network_(scene, parameters_),
         observer_(network_, parameters_),
         wall_fields_(network_.curve().model(), scene.number("geometry.length")),
-        stops_(stops(scene, network_.inlet().period)),
+        stops_(observables::stops(scene, network_.inlet().period)),
         tolerance_(local_tolerance(scene)),
         log_(network_, parameters_) {
     check_profile_times();
@@ -194,7 +194,7 @@ class LumpedRun final : public TierRun {
     Integrator integrator(s, carried, tolerance_);
     const double end = stops_.back().time;
     integrator.start(0, end, state, derivatives);
-    for (const Stop& stop : stops_) {
+    for (const observables::Stop& stop : stops_) {
       while (integrator.time() < stop.time) {
         const auto crossings = integrator.advance(stop.time);
         time_ = integrator.time();
@@ -213,7 +213,7 @@ class LumpedRun final : public TierRun {
     log_.end_last_beat(end);
   }
 
-  void record_stop(const Integrator& integrator, const Stop& stop) {
+  void record_stop(const Integrator& integrator, const observables::Stop& stop) {
     const double* y = integrator.state();
     if (stop.is_row) {
       observables::append(result_.observables, observer_.sample(stop.time, y));
@@ -243,7 +243,7 @@ class LumpedRun final : public TierRun {
   Network network_;
   Observer observer_;
   WallFields wall_fields_;
-  std::vector<Stop> stops_;
+  std::vector<observables::Stop> stops_;
   double tolerance_;
   double time_ = 0;
   RecruitmentLog log_;
@@ -252,12 +252,16 @@ class LumpedRun final : public TierRun {
 
 }  // namespace
 
-std::string LumpedTier::refusal(const Scene&) const {
+std::string LumpedTier::refusal(const Scene& scene) const {
+  if (scene.text("geometry.kind") == "mesh")
+    return "geometry.kind = \"mesh\" has no single cross-section; use --tier axisym, or give a cylinder";
+  if (scene.text("time.mode") == "static")
+    return "time.mode = \"static\" is for the tiers with a mesh; use --tier axisym";
   return {};
 }
 
 bool LumpedTier::suits(const Scene& scene) const {
-  return scene.text("geometry.kind") == "cylinder";
+  return scene.text("geometry.kind") == "cylinder" && scene.text("time.mode") == "transient";
 }
 
 std::unique_ptr<TierRun> LumpedTier::prepare(const Scene& scene) const {

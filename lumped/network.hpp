@@ -7,7 +7,7 @@
 
 #include "core/radial/wall_curve.hpp"
 #include "core/scene/seeded.hpp"
-#include "lumped/waveform.hpp"
+#include "core/inlet.hpp"
 
 namespace tunica::lumped {
 

@@ -53,6 +53,13 @@ void SceneReader::check_geometry() const {
                "geometry.thickness = {:g} cm is {:g} times geometry.radius = {:g} cm; allowed is {:g} to "
                "{:g} times",
                thickness, ratio, radius, thinnest, thickest));
+  if (scene_.text("geometry.kind") == "mesh" && !scene_.has("geometry.file"))
+    refuse("geometry.file",
+           "geometry.file is missing; geometry.kind = \"mesh\" needs the name of a Gmsh file (.msh)");
+  if (scene_.has("mesh.axial_cells") && scene_.integer("mesh.axial_cells") % 2 != 0)
+    refuse("mesh.axial_cells",
+           fmt::format("mesh.axial_cells = {} is odd; an even number puts a cell line at mid-length, try {}",
+                       scene_.integer("mesh.axial_cells"), scene_.integer("mesh.axial_cells") + 1));
   if (scene_.text("geometry.kind") != "torus") return;
   const double angle = scene_.number("geometry.bend_angle") * std::numbers::pi / 180;
   const double bend_radius = scene_.number("geometry.length") / angle;
@@ -68,6 +75,10 @@ void SceneReader::check_geometry() const {
 void SceneReader::check_times() const {
   const double period = scene_.number("inlet.period");
   const double total = static_cast<double>(scene_.integer("time.beats")) * period;
+  if (scene_.has("inlet.duration") && scene_.number("inlet.duration") >= period)
+    refuse("inlet.duration",
+           fmt::format("inlet.duration = {:g} s is no shorter than inlet.period = {:g} s; reduce it",
+                       scene_.number("inlet.duration"), period));
   const double interval = scene_.number("output.interval");
   if (interval > total)
     refuse("output.interval",

@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <utility>
+
 #include "core/scene/parameter.hpp"
 #include "core/wall/catalog.hpp"
 
@@ -118,13 +122,28 @@ void add_family_parameters(std::vector<Parameter>& all, const std::string& prefi
 
 std::vector<Parameter> declare() {
   std::vector<Parameter> all;
-  all.push_back(choice("geometry.kind", "cylinder", {"cylinder", "torus"}, "Shape of the artery."));
+  all.push_back(choice("geometry.kind", "cylinder", {"cylinder", "torus", "mesh"},
+                       "Shape of the artery; mesh is one of any shape, from geometry.file."));
+  all.push_back(
+      {"geometry.file",
+       Kind::text,
+       "",
+       {},
+       "must be given with kind = \"mesh\"",
+       {},
+       {},
+       "Gmsh file of the artery's half plane (x = r, y = z, in cm) with the named parts blood, wall, inlet, "
+       "outlet, outer, wall_inlet and wall_outlet."});
   all.push_back(
       number("geometry.radius", "cm", 0.033, positive(10), "Inner radius R0 of the unloaded artery."));
   all.push_back(number("geometry.thickness", "cm", 0.01, positive(10), "Thickness h of the unloaded wall."));
   all.push_back(number("geometry.length", "cm", 0.66, positive(1000), "Length L along the centreline."));
   all.push_back(number("geometry.bend_angle", "deg", 180, {0, 350, true, false},
                        "Angle that the torus turns through."));
+  all.push_back(
+      choice("geometry.ends", "clamped", {"clamped", "sliding"},
+             "Ends of the wall: clamped, or sliding (held along the axis only, free to widen, as in a "
+             "longer artery). The 0D tier has no ends."));
 
   add_law_parameters(all, "wall.", false);
   all.push_back(number("wall.density", "g/cm3", 1.2, positive(100), "Density of the tissue, unloaded."));
@@ -171,15 +190,22 @@ std::vector<Parameter> declare() {
        {},
        {},
        "What is prescribed at the inlet: \"ica\" (flow of the internal carotid artery), \"constant\" (flow), "
-       "\"pressure\" (constant pressure), or the name of a CSV file with one period of time[s] and "
+       "\"pressure\" (constant pressure), \"pulse\" (inlet.pressure for inlet.duration, then 0, once a "
+       "period), or "
+       "the name of a CSV file with one period of time[s] and "
        "flow[cm3/s] or pressure[dyn/cm2] (any unit of that dimension)."});
   all.push_back(number("inlet.flow", "cm3/s", {}, between(-1e5, 1e5),
                        "Mean flow of the \"ica\" and \"constant\" waveforms.",
                        "4.25 (radius/0.195)^2: the carotid's 255 ml/min scaled by lumen area"));
   all.push_back(number("inlet.pressure", "dyn/cm2", 133322.387, between(-1e7, 1e7),
-                       "Pressure of the \"pressure\" waveform."));
+                       "Pressure of the \"pressure\" and \"pulse\" waveforms."));
+  all.push_back(number("inlet.duration", "s", 3e-3, positive(100), "Length of the \"pulse\" waveform."));
   all.push_back(number("inlet.period", "s", 0.8, {1e-3, 100, false, false},
                        "Length of a heart beat. A CSV waveform brings its own period."));
+  all.push_back(choice(
+      "inlet.profile", "parabolic", {"parabolic", "natural"},
+      "How a flow is imposed: parabolic prescribes the velocity, natural an unknown uniform pressure that "
+      "drives the flow. The 0D tier knows no profile."));
 
   all.push_back(
       choice("outlet.kind", "resistance", {"resistance", "rcr"},
@@ -194,13 +220,28 @@ std::vector<Parameter> declare() {
   all.push_back(number("outlet.compliance", "cm5/dyn", 3e-8, positive(1), "Compliance of rcr."));
 
   all.push_back(
-      {"time.beats", Kind::integer, "1", 2L, "", between(1, 1000), {}, "Number of heart beats to compute."});
+      number("outlet.backflow", "1", 0.0, between(0, 1),
+             "Resistance at the outlet against blood that flows back, as a multiple of its momentum; 0.5 "
+             "takes out the energy that it brings in (2D and 3D tiers)."));
+
   all.push_back(
-      choice("time.start", "rest", {"rest", "periodic"},
-             "Start from rest (no load, no flow), or on the limit cycle so that every beat is alike."));
+      choice("time.mode", "transient", {"transient", "static"},
+             "static computes one state at rest, with the waveform's pressure in the lumen (\"pressure\") "
+             "or the flow at time 0 (2D and 3D tiers)."));
+  all.push_back(
+      {"time.beats", Kind::integer, "1", 2L, "", between(1, 1000), {}, "Number of heart beats to compute."});
+  all.push_back(choice("time.start", "rest", {"rest", "static", "periodic"},
+                       "Start from rest (no load, no flow), from the steady state of the inlet's value at "
+                       "time 0 (static), or on "
+                       "the limit cycle so that every beat is alike."));
   all.push_back(
       number("time.ramp", "s", 0.05, from_zero(10),
              "From rest, the inlet grows smoothly to its waveform over this time: (1 - cos(pi t/ramp))/2."));
+
+  all.push_back(choice("time.scheme", "bdf2", {"bdf2", "backward-euler", "generalized-alpha"},
+                       "Time scheme of the 2D and 3D tiers."));
+  all.push_back(number("time.step", "s", 0.0, from_zero(1),
+                       "Fixed time step of the 2D and 3D tiers; 0 chooses steps from accuracy.tolerance."));
 
   all.push_back(number("accuracy.tolerance", "1", 0.01, {1e-9, 0.1, false, false},
                        "Error allowed in the observables, relative to their range."));
@@ -218,6 +259,38 @@ std::vector<Parameter> declare() {
   all.push_back(number("output.field_interval", "s", 0.05, from_zero(1000),
                        "Time between the pictures in fields/, which ParaView shows as an animation. 0 leaves "
                        "fields/ out."));
+
+  all.push_back(
+      choice("mesh.element", "quadratic", {"quadratic", "linear", "bubble"},
+             "Elements of the 2D and 3D tiers: quadratic (pressure linear), linear (pressure stabilised), or "
+             "bubble, the paper's linear ones with a bubble in the velocity (triangles)."));
+  all.push_back(choice("mesh.cell", "quadrilateral", {"quadrilateral", "triangle"},
+                       "Cells of the mesh that is made of a cylinder; bubble makes triangles."));
+  for (const auto& [key, where] : {std::pair{"mesh.wall_cells", "through the wall"},
+                                   std::pair{"mesh.blood_cells", "from the axis to the wall"},
+                                   std::pair{"mesh.axial_cells", "along the artery, an even number"}})
+    all.push_back({key,
+                   Kind::integer,
+                   "1",
+                   {},
+                   "from accuracy.tolerance",
+                   between(1, 4000),
+                   {},
+                   fmt::format("Number of cells {} of the 2D and 3D tiers.", where)});
+  all.push_back(
+      {"mesh.mixed_wall",
+       Kind::flag,
+       "",
+       true,
+       "",
+       {},
+       {},
+       "Interpolate the pressure in the wall on its own, so that nearly incompressible tissue does not lock "
+       "(2D and 3D tiers)."});
+  all.push_back(
+      choice("mesh.motion", "harmonic", {"harmonic", "stiffened"},
+             "How the mesh in the blood follows the wall: harmonic, or with small cells made stiffer, which "
+             "bears larger motion (2D and 3D tiers)."));
 
   all.push_back({"lumped.compartments",
                  Kind::integer,

@@ -16,7 +16,7 @@ namespace tunica {
 namespace {
 
 const std::vector<std::string>& named_waveforms() {
-  static const std::vector<std::string> names{"ica", "constant", "pressure"};
+  static const std::vector<std::string> names{"ica", "constant", "pressure", "pulse"};
   return names;
 }
 
@@ -70,9 +70,17 @@ std::string SceneReader::reason_unused(std::string_view key) const {
   if (key == "time.ramp" && scene_.text("time.start") != "rest") return because("time.start");
   if (key == "inlet.flow" || key == "inlet.pressure") {
     const std::string& waveform = scene_.text("inlet.waveform");
-    const bool used = !is_waveform_file(waveform) && (waveform == "pressure") == (key == "inlet.pressure");
+    const bool is_pressure = waveform == "pressure" || waveform == "pulse";
+    const bool used = !is_waveform_file(waveform) && is_pressure == (key == "inlet.pressure");
     return used ? "" : because("inlet.waveform");
   }
+  if (key == "inlet.duration" && scene_.text("inlet.waveform") != "pulse") return because("inlet.waveform");
+  if (key == "geometry.file" && scene_.text("geometry.kind") != "mesh") return because("geometry.kind");
+  const bool shapes_cylinder = key == "mesh.cell" || key.ends_with("_cells");
+  if (shapes_cylinder && scene_.text("geometry.kind") == "mesh") return because("geometry.kind");
+  if (key == "mesh.cell" && scene_.text("mesh.element") == "bubble") return because("mesh.element");
+  if ((key == "time.scheme" || key == "time.step") && scene_.text("time.mode") == "static")
+    return because("time.mode");
   return {};
 }
 
@@ -83,8 +91,8 @@ void SceneReader::read_waveform_file() {
   if (!is_waveform_file(waveform)) {
     const std::string near = scene::nearest(waveform, names);
     refuse("inlet.waveform",
-           fmt::format("inlet.waveform = {} is not known; write \"ica\", \"constant\", \"pressure\" "
-                       "or the name of a .csv file{}",
+           fmt::format("inlet.waveform = {} is not known; write \"ica\", \"constant\", \"pressure\", "
+                       "\"pulse\" or the name of a .csv file{}",
                        scene::in_quotes(waveform),
                        scene::did_you_mean(near.empty() ? near : scene::in_quotes(near))));
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "lumped/waveform.hpp"
+#include "core/inlet.hpp"
 
 #include <fmt/format.h>
 
@@ -18,7 +18,7 @@ using test_support::scene_with;
 // The extremes of the carotid's flow over its mean, from its series (Baek et al. 2010): DESIGN,
 // section 2, has the peak at 0.2112 s.
 TEST(LumpedWaveform, CarotidHasItsPeakAndItsTrough) {
-  const auto inlet = lumped::inlet_from_scene(scene_with({"time.ramp=0"}));
+  const auto inlet = inlet_from_scene(scene_with({"time.ramp=0"}));
   double greatest = 0, least = 10, at_greatest = 0, at_least = 0, sum = 0;
   constexpr int samples = 80000;
   for (int k = 0; k < samples; ++k) {
@@ -38,21 +38,21 @@ TEST(LumpedWaveform, CarotidHasItsPeakAndItsTrough) {
 }
 
 TEST(LumpedWaveform, RampGrowsFromRestWithoutCorners) {
-  const auto ramped = lumped::inlet_from_scene(scene_with({"time.ramp=0.05"}));
-  const auto plain = lumped::inlet_from_scene(scene_with({"time.ramp=0"}));
+  const auto ramped = inlet_from_scene(scene_with({"time.ramp=0.05"}));
+  const auto plain = inlet_from_scene(scene_with({"time.ramp=0"}));
   EXPECT_EQ(ramped.shape_at(0), 0);
   EXPECT_NEAR(ramped.shape_at(0.025), 0.5 * plain.shape_at(0.025), 1e-14);
   EXPECT_EQ(ramped.shape_at(0.05), plain.shape_at(0.05));
   const double h = 1e-6;
   EXPECT_NEAR(ramped.shape_at(h) / h, 0, 1e-2) << "no jump of the slope at the start";
-  const auto periodic = lumped::inlet_from_scene(scene_with({"time.ramp=0.05", "time.start=periodic"}));
+  const auto periodic = inlet_from_scene(scene_with({"time.ramp=0.05", "time.start=periodic"}));
   EXPECT_EQ(periodic.shape_at(0.01), plain.shape_at(0.01)) << "a periodic start has no ramp";
 }
 
 // A natural test of the spline: its own waveform, sampled. Steps of 1 ms: (2 pi 7/800)^4/384 = 2e-8 of
 // the seventh harmonic.
 TEST(LumpedWaveform, SampledCarotidGivesTheSameRun) {
-  const auto inlet = lumped::inlet_from_scene(scene_with({"time.ramp=0"}));
+  const auto inlet = inlet_from_scene(scene_with({"time.ramp=0"}));
   const double mean = 255.0 / 60 * std::pow(0.033 / 0.195, 2);
   const test_support::TemporaryFolder folder;
   {
@@ -76,7 +76,7 @@ TEST(LumpedWaveform, PressureFromAFile) {
   const test_support::TemporaryFolder folder;
   std::ofstream(folder.path() / "p.csv") << "time[s],pressure[mmHg]\n0,80\n0.1,120\n0.3,100\n0.5,80\n";
   const auto inlet =
-      lumped::inlet_from_scene(scene_with({"inlet.waveform=p.csv", "time.ramp=0"}, folder.path()));
+      inlet_from_scene(scene_with({"inlet.waveform=p.csv", "time.ramp=0"}, folder.path()));
   EXPECT_TRUE(inlet.is_pressure);
   EXPECT_EQ(inlet.period, 0.5);
   EXPECT_EQ(inlet.scale_key, "");

@@ -5,7 +5,7 @@
 
 #include "core/scene/scene.hpp"
 
-namespace tunica::lumped {
+namespace tunica::observables {
 
 /// A moment at which the run stops to look.
 struct Stop {
@@ -20,4 +20,4 @@ struct Stop {
 /// every output.field_interval, both from 0 and at the end too, and output.profile_times in the last beat.
 std::vector<Stop> stops(const Scene& scene, double period);
 
-}  // namespace tunica::lumped
+}  // namespace tunica::observables

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "lumped/waveform.hpp"
+#include "core/inlet.hpp"
 
 #include <gsl/gsl_interp.h>
 
@@ -10,7 +10,7 @@
 
 #include "core/scene/waveform_file.hpp"
 
-namespace tunica::lumped {
+namespace tunica {
 
 namespace {
 
@@ -44,6 +44,17 @@ class Constant final : public Waveform {
   double at(double) const override { return 1; }
 };
 
+/// 1 for a while at the beginning of each period, then 0.
+class Pulse final : public Waveform {
+ public:
+  Pulse(double duration, double period) : duration_(duration), period_(period) {}
+  double at(double time) const override { return std::fmod(time, period_) < duration_ ? 1 : 0; }
+  std::vector<double> jumps() const override { return {0.0, duration_}; }
+
+ private:
+  double duration_, period_;
+};
+
 /// Periodic cubic spline (GSL) through one period of samples.
 class PeriodicSpline final : public Waveform {
  public:
@@ -74,6 +85,16 @@ double Inlet::shape_at(double time) const {
   return time < ramp ? 0.5 * (1 - std::cos(std::numbers::pi * time / ramp)) * value : value;
 }
 
+std::vector<double> Inlet::breakpoints(double end) const {
+  std::vector<double> times;
+  if (ramp > 0 && ramp < end) times.push_back(ramp);
+  for (const double within : shape->jumps())
+    for (int beat = 0; beat * period + within < end; ++beat)
+      if (const double time = beat * period + within; time > 0) times.push_back(time);
+  std::sort(times.begin(), times.end());
+  return times;
+}
+
 double Inlet::greatest_shape() const {
   double greatest = 0;
   constexpr int samples = 64;
@@ -91,11 +112,14 @@ Inlet inlet_from_scene(const Scene& scene) {
       inlet.shape = std::make_unique<CarotidFlow>(inlet.period);
     else
       inlet.shape = std::make_unique<Constant>();
-  } else if (waveform == "pressure") {
+  } else if (waveform == "pressure" || waveform == "pulse") {
     inlet.is_pressure = true;
     inlet.period = scene.number("inlet.period");
     inlet.scale_key = "inlet.pressure";
-    inlet.shape = std::make_unique<Constant>();
+    if (waveform == "pulse")
+      inlet.shape = std::make_unique<Pulse>(scene.number("inlet.duration"), inlet.period);
+    else
+      inlet.shape = std::make_unique<Constant>();
   } else {
     scene::WaveformFile file = scene::read_waveform(scene.folder() / waveform);
     inlet.is_pressure = file.is_pressure;
@@ -106,4 +130,4 @@ Inlet inlet_from_scene(const Scene& scene) {
   return inlet;
 }
 
-}  // namespace tunica::lumped
+}  // namespace tunica

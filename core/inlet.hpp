@@ -2,16 +2,19 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "core/scene/scene.hpp"
 
-namespace tunica::lumped {
+namespace tunica {
 
 /// A periodic function of time at the inlet, without its scale.
 class Waveform {
  public:
   virtual ~Waveform() = default;
   virtual double at(double time) const = 0;
+  /// Times within a period at which it jumps.
+  virtual std::vector<double> jumps() const { return {}; }
 };
 
 /// The inlet of a scene: flow (cm3/s) or pressure (dyn/cm2), equal to scale * shape(t).
@@ -24,6 +27,8 @@ struct Inlet {
 
   /// shape(t), times (1 - cos(pi t / ramp))/2 while t < ramp.
   double shape_at(double time) const;
+  /// Times from 0 to `end` at which shape_at or its slope jumps, 0 excluded.
+  std::vector<double> breakpoints(double end) const;
   /// Largest magnitude of the shape within a period, ramp aside, to within a few per cent.
   double greatest_shape() const;
 };
@@ -31,4 +36,4 @@ struct Inlet {
 /// Throws InvalidInput when the scene's CSV file cannot be used.
 Inlet inlet_from_scene(const Scene& scene);
 
-}  // namespace tunica::lumped
+}  // namespace tunica

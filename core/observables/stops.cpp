@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "lumped/stops.hpp"
+#include "core/observables/stops.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace tunica::lumped {
+namespace tunica::observables {
 
 namespace {
 
@@ -35,4 +35,4 @@ std::vector<Stop> stops(const Scene& scene, double period) {
   return all;
 }
 
-}  // namespace tunica::lumped
+}  // namespace tunica::observables

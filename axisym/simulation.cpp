@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "axisym/simulation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/observables/checkpoint.hpp"
+
+namespace tunica::axisym {
+
+Simulation::Simulation(const Problem& problem, const SimulationOptions& options)
+    : problem_(problem),
+      options_(options),
+      assembler_(problem),
+      newton_(assembler_),
+      scheme_(options.method, options.spectral_radius),
+      control_(options.steps),
+      candidate_(assembler_.layout().size()),
+      error_(assembler_.layout().size()) {
+  // What is still a hundredth of its size to come need not be computed to its own last digits.
+  constexpr double small = 0.01;
+  const auto& s = options.scales;
+  newton_.set_sizes({small * s.displacement, small * s.velocity, small * s.pressure});
+}
+
+void Simulation::start(double time, std::vector<double> state) {
+  assembler_.complete({time, 0, {}}, state);
+  std::vector<double> rates(state.size(), 0.0);
+  scheme_.start(time, std::move(state), std::move(rates));
+  step_begin_ = time;
+}
+
+bool Simulation::at_milestone() const {
+  return control_.counts().accepted % options_.milestone == 0;
+}
+
+double Simulation::error_norm(std::span<const double> stage_value) {
+  scheme_.error(stage_value, error_);
+  const Layout& layout = assembler_.layout();
+  const auto& sizes = newton_.sizes();
+  const auto& scales = options_.scales;
+  double norm = 0;
+  const auto include = [&](std::size_t entry, double size) {
+    if (size > 0) norm = std::max(norm, std::abs(error_[entry]) / (options_.tolerance * size));
+  };
+  const bool moves = problem_.mesh.has(Part::wall);
+  const double displacement = std::max(sizes.displacement, scales.displacement);
+  const double velocity = std::max(sizes.velocity, scales.velocity);
+  for (int u = 0; u < layout.unknowns(); ++u) {
+    const std::size_t e = layout.entry(u);
+    if (e >= layout.pressure_begin()) break;
+    if (moves && e < layout.velocity_begin() && layout.on_wall(static_cast<int>(e / 2)))
+      include(e, displacement);
+    else if (!moves && e >= layout.velocity_begin())
+      include(e, velocity);
+  }
+  const double pressure = std::max(sizes.pressure, scales.pressure);
+  for (std::size_t e = layout.scalar_begin(); e < layout.size(); ++e) include(e, pressure);
+  return norm;
+}
+
+void Simulation::advance(double stop) {
+  const auto jump = std::upper_bound(options_.jumps.begin(), options_.jumps.end(), time());
+  if (jump != options_.jumps.end()) stop = std::min(stop, *jump);
+  const NewtonOptions newton{options_.newton_tolerance, 60};
+  for (;;) {
+    const time::Step step = control_.next(time(), stop);
+    const time::Stage& at = scheme_.begin(step);
+    const auto prediction = scheme_.prediction();
+    std::copy(prediction.begin(), prediction.end(), candidate_.begin());
+    const Stage stage{at.time, at.coefficient, scheme_.history()};
+    const NewtonReport report = newton_.solve(stage, candidate_, newton);
+    time::Verdict verdict = time::Verdict::retry;
+    if (report.converged) {
+      const int order = options_.steps.fixed ? 0 : scheme_.error_order();
+      verdict = control_.judge(order > 0 ? error_norm(candidate_) : 0.0, order);
+    } else {
+      newton_.forget();
+      verdict = control_.solve_failed();
+    }
+    if (verdict == time::Verdict::give_up) give_up(report);
+    if (verdict == time::Verdict::accept) break;
+  }
+  step_begin_ = time();
+  scheme_.accept(candidate_);
+  least_jacobian_ = std::min(least_jacobian_, assembler_.least_jacobian().value);
+  if (at_milestone()) newton_.forget();
+  if (std::binary_search(options_.jumps.begin(), options_.jumps.end(), time())) {
+    scheme_.start(time(), scheme_.value());
+    control_.restart();
+  }
+}
+
+void Simulation::give_up(const NewtonReport& report) const {
+  const LeastJacobian& least = assembler_.least_jacobian();
+  std::string where;
+  if (least.cell >= 0 && least.value < 0.1) {
+    const Cell& cell = problem_.mesh.cells[least.cell];
+    const auto& centre = problem_.mesh.points[cell.nodes[problem_.mesh.centre_node()]];
+    where = fmt::format("; the {} is most compressed, J = {:.3g}, in cell {} at r = {:.4g}, z = {:.4g} cm",
+                        cell.part == Part::blood ? "blood's mesh" : "wall", least.value, least.cell,
+                        centre[0], centre[1]);
+    if (cell.part == Part::blood) where += " (mesh.motion = \"stiffened\" bears more)";
+  }
+  throw SolverFailure(fmt::format("the smallest time step, {:.2g} s, was not solved: {}{}",
+                                  control_.options().minimum,
+                                  report.converged ? "its error is too large" : report.failure, where));
+}
+
+namespace {
+
+nlohmann::json pack_all(const std::vector<std::vector<double>>& all) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const auto& one : all) list.push_back(pack(one));
+  return list;
+}
+std::vector<std::vector<double>> unpack_all(const nlohmann::json& list) {
+  std::vector<std::vector<double>> all;
+  for (const auto& one : list) all.push_back(unpack(one));
+  return all;
+}
+
+}  // namespace
+
+nlohmann::json Simulation::save() const {
+  const auto scheme = scheme_.save();
+  const auto& control = control_.save();
+  const auto& sizes = newton_.sizes();
+  nlohmann::json saved;
+  saved["scheme"] = {
+      {"steps", scheme.steps},
+      {"rate_given", scheme.rate_given},
+      {"numbers", pack(std::vector<double>{scheme.time, scheme.step_sizes[0], scheme.step_sizes[1],
+                                           scheme.rate_offsets[0], scheme.rate_offsets[1]})},
+      {"values", pack_all(scheme.values)},
+      {"rates", pack_all(scheme.rates)}};
+  saved["control"] = {
+      {"numbers", pack(std::vector<double>{control.wanted, control.tried, control.tried_end, control.regular,
+                                           control.cell_end, control.accepted, control.error_before})},
+      {"counts",
+       {control.divided ? 1 : 0, control.order_before, control.failed, control.rejected, control.hold,
+        control.counts.accepted, control.counts.rejected_by_error, control.counts.rejected_by_solver}}};
+  saved["sizes"] = pack(std::vector<double>{sizes.displacement, sizes.velocity, sizes.pressure});
+  saved["progress"] = pack(std::vector<double>{step_begin_, least_jacobian_});
+  return saved;
+}
+
+void Simulation::restore(const nlohmann::json& saved) {
+  const auto& s = saved.at("scheme");
+  const auto numbers = unpack(s.at("numbers"));
+  time::Scheme::Saved scheme;
+  scheme.steps = s.at("steps");
+  scheme.rate_given = s.at("rate_given");
+  scheme.time = numbers.at(0);
+  scheme.step_sizes = {numbers.at(1), numbers.at(2)};
+  scheme.rate_offsets = {numbers.at(3), numbers.at(4)};
+  scheme.values = unpack_all(s.at("values"));
+  scheme.rates = unpack_all(s.at("rates"));
+  scheme_.restore(scheme);
+  const auto& c = saved.at("control");
+  const auto steps = unpack(c.at("numbers"));
+  const auto counts = c.at("counts").get<std::vector<long>>();
+  time::StepControl::Saved control;
+  control.wanted = steps.at(0);
+  control.tried = steps.at(1);
+  control.tried_end = steps.at(2);
+  control.regular = steps.at(3);
+  control.cell_end = steps.at(4);
+  control.accepted = steps.at(5);
+  control.error_before = steps.at(6);
+  control.divided = counts.at(0) != 0;
+  control.order_before = static_cast<int>(counts.at(1));
+  control.failed = static_cast<int>(counts.at(2));
+  control.rejected = static_cast<int>(counts.at(3));
+  control.hold = static_cast<int>(counts.at(4));
+  control.counts = {counts.at(5), counts.at(6), counts.at(7)};
+  control_.restore(control);
+  const auto sizes = unpack(saved.at("sizes"));
+  newton_.set_sizes({sizes.at(0), sizes.at(1), sizes.at(2)});
+  const auto progress = unpack(saved.at("progress"));
+  step_begin_ = progress.at(0);
+  least_jacobian_ = progress.at(1);
+  newton_.forget();
+}
+
+}  // namespace tunica::axisym

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "axisym/newton.hpp"
+#include "core/time/step_control.hpp"
+
+namespace tunica::axisym {
+
+struct SimulationOptions {
+  time::Method method = time::Method::bdf2;
+  double spectral_radius = 0.5;  ///< of generalised-alpha
+  time::StepOptions steps;
+  /// Local error allowed per step in the displacement of the wall and the pressure at the outlet (in the
+  /// velocity of blood in a rigid pipe), relative to `scales`.
+  double tolerance = 1e-3;
+  double newton_tolerance = 1e-5;  ///< relative to the greatest values so far
+  Newton::Sizes scales;            ///< expected sizes of the fields; 0 where nothing is known
+  /// Times at which loads jump: steps end there, and the scheme begins anew.
+  std::vector<double> jumps;
+  /// Accepted steps after which the factorisation is dropped, so that a run resumed there is the same.
+  long milestone = 50;
+};
+
+/// Computes a problem step by step.
+class Simulation {
+ public:
+  Simulation(const Problem& problem, const SimulationOptions& options);
+
+  /// Begins at `time` from a state whose rates are zero.
+  void start(double time, std::vector<double> state);
+
+  /// Takes one step that does not go beyond `stop`; steps whose error is too large and steps that are not
+  /// solved are repeated with smaller ones. Throws SolverFailure at the smallest step: when, where and why.
+  void advance(double stop);
+
+  double time() const { return scheme_.time(); }
+  double step_begin() const { return step_begin_; }  ///< of the last step
+  const std::vector<double>& state() const { return scheme_.value(); }
+  /// State within the last step.
+  void interpolate(double time, std::span<double> out) const { scheme_.interpolate(time, out); }
+  /// True right after a step that ends at a milestone: the place for a checkpoint.
+  bool at_milestone() const;
+
+  const Assembler& assembler() const { return assembler_; }
+  const Layout& layout() const { return assembler_.layout(); }
+  const NewtonCounts& newton_counts() const { return newton_.counts(); }
+  const time::StepControl::Counts& step_counts() const { return control_.counts(); }
+  double least_jacobian() const { return least_jacobian_; }  ///< of all accepted states
+
+  nlohmann::json save() const;
+  void restore(const nlohmann::json& saved);
+
+ private:
+  double error_norm(std::span<const double> stage_value);
+  [[noreturn]] void give_up(const NewtonReport& report) const;
+
+  const Problem& problem_;
+  SimulationOptions options_;
+  Assembler assembler_;
+  Newton newton_;
+  time::Scheme scheme_;
+  time::StepControl control_;
+  std::vector<double> candidate_, error_;
+  double step_begin_ = 0;
+  double least_jacobian_ = 1;
+};
+
+}  // namespace tunica::axisym
