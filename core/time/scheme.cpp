@@ -8,8 +8,6 @@
 
 namespace tunica::time {
 
-namespace {}  // namespace
-
 Scheme::Scheme(Method method, double spectral_radius) : method_(method) {
   if (!(spectral_radius >= 0 && spectral_radius <= 1))
     throw std::logic_error("time::Scheme: the spectral radius must lie in [0, 1]");
@@ -23,7 +21,8 @@ Scheme::Scheme(Method method, double spectral_radius) : method_(method) {
 void Scheme::start(double time, std::vector<double> value, std::vector<double> rate) {
   time_ = time;
   steps_ = 0;
-  step_sizes_ = rate_offsets_ = {};
+  step_sizes_ = {};
+  rate_offsets_ = {};
   rate_given_ = !rate.empty();
   if (!rate_given_) rate.assign(value.size(), 0.0);
   if (rate.size() != value.size()) throw std::logic_error("time::Scheme: a rate for each value is needed");
@@ -168,7 +167,8 @@ void Scheme::interpolate(double time, std::span<double> out) const {
 }
 
 Scheme::Saved Scheme::save() const {
-  const std::size_t levels = steps_ + 1, rates = std::min(steps_ + 1, 2);
+  const std::size_t levels = std::min<std::size_t>(steps_ + 1, values_.size());
+  const std::size_t rates = std::min<std::size_t>(steps_ + 1, rates_.size());
   return {time_,
           steps_,
           rate_given_,

@@ -48,7 +48,7 @@ struct Stage {
 ///
 /// Entries without a rate in F (pressures) are treated as the others. Those that only the derivative of a
 /// constraint determines (index 2) keep the order under bdf2 for any steps; under generalized alpha with
-/// rho > 0 they are of first order after an abrupt change of step, until that has decayed as rho^n.
+/// rho > 0 they are of first order after an abrupt change of step, until that has decayed as n rho^n.
 class Scheme {
  public:
   /// `spectral_radius` is rho, in [0, 1], used by generalized_alpha only.
@@ -80,6 +80,13 @@ class Scheme {
   /// E = 1/12 - s^2 + s (1 - 2 am)/2, which is exact for linear autonomous systems and equal steps.
   /// Where a second-order method has one rate of the past only, the estimate is that of backward Euler,
   /// which is too large.
+  ///
+  /// A norm that steps are chosen by must not take every entry as it is. A change of step moves by h^2
+  ///  - entries that F gives as the rate of another that does not depend on them (the velocity of a wall
+  ///    that follows the pressure) or that only the derivative of a constraint determines. Smaller steps do
+  ///    not bring this below a tolerance that falls as h^3: weigh such entries by the step or leave them out;
+  ///  - under generalized alpha with rho > 0, all that follows others without inertia. It costs many steps:
+  ///    that method is for equal ones.
   void error(std::span<const double> stage_value, std::span<double> out) const;
   /// p when the estimate for the step begun is of the order h^(p+1); 0 without estimate.
   int error_order() const;

@@ -33,7 +33,8 @@ StepControl::StepControl(const StepOptions& options) : options_(options) {
 Step StepControl::next(double time, double stop) {
   const double target = state_.divided ? std::min(stop, state_.cell_end) : stop;
   const double remaining = target - time;
-  if (!(remaining > 0)) throw std::logic_error("time::StepControl: the stop is not ahead");
+  if (!(remaining > 0 && std::isfinite(remaining)))
+    throw std::logic_error("time::StepControl: the stop is not ahead");
   double limit = options_.maximum;
   if (!options_.fixed && state_.accepted > 0) limit = std::min(limit, options_.growth * state_.accepted);
   const double wanted = options_.fixed ? state_.wanted : std::min(state_.wanted, limit);
@@ -90,7 +91,8 @@ Verdict StepControl::judge(double error, int order) {
   }
   error = std::max(error, least_error);
   double ratio = options_.safety * std::pow(error, exponent);
-  if (state_.order_before == order && state_.rejected + state_.failed == 0)
+  const bool comparable = state_.order_before == order && tried * options_.growth >= state_.accepted;
+  if (comparable && state_.rejected + state_.failed == 0)
     ratio *= std::min(1.0, tried / state_.accepted * std::pow(error / state_.error_before, exponent));
   ratio = std::max(ratio, least_ratio);
   accept(error, order);

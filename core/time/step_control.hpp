@@ -26,14 +26,14 @@ struct StepOptions {
 ///
 /// A step is accepted when the norm of its error is at most 1. With errors of the order h^(p+1), the next
 /// step is the smaller of
-///   h safety err^(-1/(p+1))                                      (elementary)
-///   h safety err^(-1/(p+1)) (h/h_before) (err_before/err)^(1/(p+1))   (predictive, Gustafsson 1994)
-/// the latter after two accepted steps in a row. A PI controller would not do: where steps are left as they
-/// are, its answer to a small error is too weak to leave the band.
+///   elementary    h safety err^(-1/(p+1)),
+///   predictive    h safety err^(-1/(p+1)) (h/h_before) (err_before/err)^(1/(p+1))  (Gustafsson 1994),
+/// the latter after two accepted steps of like size in a row. A PI controller would not do: where steps are
+/// left as they are, its answer to a small error is too weak to leave the band.
 ///
-/// The time to the stop is divided evenly, by the whole number of steps that comes closest to the step
-/// wanted without exceeding it (but for a tenth of a step in all). So steps stay equal up to the stop, it is
-/// met exactly, and the last step is no sliver.
+/// The time to the stop is divided evenly into as few steps as are no longer than wanted (where a tenth of
+/// one would be left over, the others are stretched). So steps stay equal up to the stop, it is met exactly,
+/// and the last step is no sliver.
 ///
 /// A step that cannot be solved is halved, and quartered when it fails again; the next steps do not grow. In
 /// fixed mode its end is met by the smaller steps, and steps are then as before.
