@@ -353,7 +353,9 @@ bool Assembler::residual(const Stage& stage, std::span<const double> y, std::spa
   const auto wall_count = static_cast<int>(tables_.wall.size());
   std::vector<BloodResidual> blood(tables_.blood.size());
   std::vector<WallResidual> wall(tables_.wall.size());
-#pragma omp parallel
+  // On few cells waiting for each other takes threads longer than the work.
+  const bool share = blood_count + wall_count > 1000;
+#pragma omp parallel if (share)
   {
 #pragma omp for schedule(static) nowait
     for (int k = 0; k < blood_count; ++k) {

@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <Eigen/SparseCore>
 #include <array>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "axisym/direct_solver.hpp"
 #include "axisym/layout.hpp"
 #include "axisym/tables.hpp"
 
 namespace tunica::axisym {
-
-using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor>;
 
 /// What a time scheme makes of the state at the time where the equations hold: rate = coefficient y + history
 /// for every entry. Coefficient 0 and history 0 give the steady equations.

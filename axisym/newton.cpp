@@ -3,35 +3,20 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/UmfPackSupport>
 #include <algorithm>
 #include <cmath>
 
 namespace tunica::axisym {
 
-struct Newton::Factors {
-  Eigen::UmfPackLU<SparseMatrix> lu;
-  bool analysed = false;
-};
-
 Newton::Newton(const Assembler& assembler)
     : assembler_(assembler),
       matrix_(assembler.pattern()),
-      factors_(std::make_unique<Factors>()),
       residual_(assembler.layout().unknowns()),
-      weights_(assembler.layout().unknowns()) {
-  // The corrections are repeated anyway, so that refining each solution would only cost time.
-  factors_->lu.umfpackControl()[UMFPACK_IRSTEP] = 0;
-}
-
-Newton::~Newton() = default;
+      weights_(assembler.layout().unknowns()) {}
 
 void Newton::forget() {
   factorised_ = false;
-}
-
-double Newton::factor_entries() const {
-  return factorised_ ? static_cast<double>(factors_->lu.matrixL().nonZeros()) : 0;
+  solver_.forget();
 }
 
 bool Newton::evaluate(const Stage& stage, std::span<double> y) {
@@ -42,19 +27,15 @@ bool Newton::evaluate(const Stage& stage, std::span<double> y) {
 
 bool Newton::factorise(const Stage& stage, std::span<double> y) {
   assembler_.tangent(stage, y, matrix_);
-  if (!factors_->analysed) factors_->lu.analyzePattern(matrix_);
-  factors_->analysed = true;
-  factors_->lu.factorize(matrix_);
   ++counts_.factorisations;
-  factorised_ = factors_->lu.info() == Eigen::Success;
+  factorised_ = solver_.factorise(matrix_);
   return factorised_;
 }
 
 void Newton::correct(std::vector<double>& correction) const {
-  correction.resize(residual_.size());
-  const Eigen::Map<const Eigen::VectorXd> r(residual_.data(), static_cast<Eigen::Index>(residual_.size()));
-  Eigen::Map<Eigen::VectorXd> x(correction.data(), static_cast<Eigen::Index>(correction.size()));
-  x = -factors_->lu.solve(r);
+  correction.assign(residual_.begin(), residual_.end());
+  solver_.solve(correction);
+  for (double& entry : correction) entry = -entry;
 }
 
 void Newton::add(std::span<double> y, double factor, const std::vector<double>& correction) const {

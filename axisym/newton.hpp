@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -29,7 +28,7 @@ struct NewtonCounts {
 
 /// Newton's method for the coupled equations of one stage.
 ///
-/// A factorised derivative (UMFPACK) is kept from iteration to iteration and from step to step, and improved
+/// A factorised derivative is kept from iteration to iteration and from step to step, and improved
 /// by Broyden's rank-one updates (Kelley, Solving Nonlinear Equations with Newton's Method, SIAM 2003), for
 /// as long as that converges well: a factorisation costs as much as many iterations. Otherwise the derivative
 /// is computed anew, and iterations that would not approach the solution are damped by the natural
@@ -37,9 +36,6 @@ struct NewtonCounts {
 class Newton {
  public:
   explicit Newton(const Assembler& assembler);
-  ~Newton();
-  Newton(const Newton&) = delete;
-  Newton& operator=(const Newton&) = delete;
 
   /// Solves for the unknowns in `y`, from the values that it holds. Prescribed entries and the wall's
   /// velocities are put in place. When it does not converge, y is of no use.
@@ -58,10 +54,9 @@ class Newton {
 
   const NewtonCounts& counts() const { return counts_; }
   /// Entries of the latest factorisation.
-  double factor_entries() const;
+  double factor_entries() const { return solver_.entries(); }
 
  private:
-  struct Factors;
   enum class Outcome { converged, slow, failed };
 
   bool evaluate(const Stage& stage, std::span<double> y);
@@ -79,7 +74,7 @@ class Newton {
 
   const Assembler& assembler_;
   SparseMatrix matrix_;
-  std::unique_ptr<Factors> factors_;
+  DirectSolver solver_;
   bool factorised_ = false;
   std::vector<double> residual_, weights_;
   Sizes sizes_;

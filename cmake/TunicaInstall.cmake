@@ -10,7 +10,7 @@ configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/tunicaConfig.cmake.in
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/tunicaConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/tunicaConfig.cmake ${PROJECT_BINARY_DIR}/tunicaConfigVersion.cmake
               ${CMAKE_CURRENT_LIST_DIR}/FindUDUNITS2.cmake
-              ${CMAKE_CURRENT_LIST_DIR}/FindUMFPACK.cmake
+              ${CMAKE_CURRENT_LIST_DIR}/FindKLU.cmake
         DESTINATION ${package_folder})
 install(EXPORT tunicaTargets NAMESPACE tunica:: DESTINATION ${package_folder})
 
