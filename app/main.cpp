@@ -48,6 +48,25 @@ int main(int argc, char** argv) {
   run_app->add_flag_callback(
       "--no-report", [&] { run.report = false; }, "Leave report.html out");
 
+  VerifyArguments verify;
+  auto* verify_app = app.add_subcommand("verify", "Compute a scene with several tiers and compare them");
+  verify_app->add_option("scene", verify.scene, "Scene file (TOML)")->required()->type_name("SCENE");
+  verify_app
+      ->add_option(
+          "--tiers", verify.tiers,
+          "Tiers to compare, separated by commas (default: all that can compute the scene); the highest is "
+          "the reference")
+      ->type_name("A,B,...")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  verify_app->add_option("--set", verify.overrides, "Override a key of the scene; may be repeated")
+      ->type_name("KEY=VALUE")
+      ->take_all()
+      ->allow_extra_args(false);
+  verify_app->add_option("--out", verify.out, "Folder for the results (default: results/NAME-verify)")
+      ->type_name("DIR");
+  verify_app->add_flag("--quiet", verify.quiet, "Print errors only");
+
   SceneArguments scene;
   auto* scene_app = app.add_subcommand("scene", "Show a scene with every default, unit and meaning");
   scene_app->add_option("scene", scene.scene, "Scene file (TOML)")->type_name("SCENE");
@@ -74,7 +93,8 @@ int main(int argc, char** argv) {
         argc < 2 || std::any_of(commands.begin(), commands.end(),
                                 [&](const CLI::App* command) { return command->get_name() == argv[1]; });
     if (!known && argv[1][0] != '-') {
-      fmt::print(stderr, "tunica: {} is not a command; there are: run, scene, report (see tunica --help)\n",
+      fmt::print(stderr,
+                 "tunica: {} is not a command; there are: run, verify, scene, report (see tunica --help)\n",
                  argv[1]);
       return bad_input;
     }
@@ -84,6 +104,7 @@ int main(int argc, char** argv) {
 
   try {
     if (*run_app) return run_command(run);
+    if (*verify_app) return verify_command(verify);
     if (*scene_app) return scene_command(scene);
     return report_command(report);
   } catch (const InvalidInput& error) {

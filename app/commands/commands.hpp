@@ -20,6 +20,15 @@ struct RunArguments {
 };
 int run_command(const RunArguments& arguments);
 
+struct VerifyArguments {
+  std::string scene;
+  std::vector<std::string> tiers;  ///< empty: all that can compute the scene
+  std::vector<std::string> overrides;
+  std::string out;  ///< empty: results/NAME-verify
+  bool quiet = false;
+};
+int verify_command(const VerifyArguments& arguments);
+
 struct SceneArguments {
   std::string scene;
   std::vector<std::string> overrides;

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
-#include <unistd.h>
 
-#include <atomic>
-#include <csignal>
 #include <filesystem>
-#include <string_view>
 
 #include "app/commands/commands.hpp"
+#include "app/interrupt.hpp"
 #include "app/progress.hpp"
 #include "app/report/report.hpp"
 #include "app/tiers.hpp"
@@ -24,19 +21,6 @@ namespace {
 
 constexpr const char* report_file = "report.html";
 
-std::atomic<bool> stop_asked = false;
-std::atomic<bool> setting_up = true;
-static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may only touch lock-free atomics");
-
-/// A run that computes keeps what it has; before that there is nothing to keep.
-void ask_to_stop(int) {
-  stop_asked = true;
-  if (!setting_up) return;
-  constexpr std::string_view message = "tunica: interrupted before anything was computed\n";
-  [[maybe_unused]] const auto written = ::write(STDERR_FILENO, message.data(), message.size());
-  ::_exit(interrupted);
-}
-
 }  // namespace
 
 int run_command(const RunArguments& arguments) {
@@ -48,21 +32,20 @@ int run_command(const RunArguments& arguments) {
   if (!arguments.quiet)
     for (const auto& remark : scene.remarks()) spdlog::warn(remark);
 
-  std::signal(SIGINT, ask_to_stop);
-  std::signal(SIGTERM, ask_to_stop);
+  heed_interrupts();
   // A scene that the tier refuses leaves nothing behind: the folder is made when the run is executed.
   StoredRun run(tier, scene, folder, arguments.resume);
   if (run.is_complete()) {
     if (!arguments.quiet) fmt::print("{}: this run is complete\n", folder.string());
     return done;
   }
-  setting_up = false;
+  computation_begins();
   Result result;
   {
     ProgressDisplay display(arguments.quiet);
     RunControl control;
     control.report = [&](const Progress& progress) { display.show(progress); };
-    control.interrupted = [] { return stop_asked.load(); };
+    control.interrupted = stop_asked;
     result = run.execute(control, [&](const std::string& failure) {
       if (!arguments.quiet) spdlog::warn("the run goes on, but cannot be resumed from here: {}", failure);
     });

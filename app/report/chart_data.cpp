@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -26,24 +25,6 @@ constexpr int time_digits = 10;  // times of different runs are compared by the 
 double display_unit(const Column& column) {
   if (column.name.starts_with("von_mises")) return stress_unit;
   return column.unit == "dyn/cm2" ? mmhg : 1.0;
-}
-
-void append_array(std::string& json, const std::vector<double>& values, double factor, int precision) {
-  json += '[';
-  for (const double value : values) {
-    char buffer[32];
-    if (std::isfinite(value)) {
-      const auto end =
-          std::to_chars(buffer, buffer + sizeof buffer, value * factor, std::chars_format::general, precision)
-              .ptr;
-      json.append(buffer, end);
-    } else {
-      json += "null";
-    }
-    json += ',';
-  }
-  if (json.back() == ',') json.pop_back();
-  json += ']';
 }
 
 bool has_values(const std::vector<double>& values) {

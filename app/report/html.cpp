@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <stdexcept>
 
@@ -52,6 +53,31 @@ std::string script_json(const nlohmann::ordered_json& value) {
 
 std::string script_string(std::string_view text) {
   return script_json(nlohmann::ordered_json(text));
+}
+
+void append_array(std::string& json, const std::vector<double>& values, double factor, int digits) {
+  json += '[';
+  for (const double value : values) {
+    char buffer[32];
+    if (std::isfinite(value)) {
+      const auto end =
+          std::to_chars(buffer, buffer + sizeof buffer, value * factor, std::chars_format::general, digits)
+              .ptr;
+      json.append(buffer, end);
+    } else {
+      json += "null";
+    }
+    json += ',';
+  }
+  if (json.back() == ',') json.pop_back();
+  json += ']';
+}
+
+std::string table(std::string_view caption, std::string_view head, std::string_view body) {
+  return fmt::format(
+      "<div class=\"scroll\" tabindex=\"0\"><table><caption>{}</caption><thead>{}</thead>"
+      "<tbody>{}</tbody></table></div>\n",
+      caption, head, body);
 }
 
 std::string number(double value, int decimals) {

@@ -16,6 +16,12 @@ std::string escape(std::string_view text);
 std::string script_json(const nlohmann::ordered_json& value);
 std::string script_string(std::string_view text);
 
+/// Appends [1.5,null,...]: numbers times a factor with so many digits; null for what is not finite.
+void append_array(std::string& json, const std::vector<double>& values, double factor, int digits);
+
+/// A table in a box that scrolls sideways by itself, so that the page does not. All three are HTML.
+std::string table(std::string_view caption, std::string_view head, std::string_view body);
+
 /// A number with a fixed count of decimals and a real minus sign; "–" for none.
 std::string number(double value, int decimals);
 

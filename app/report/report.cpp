@@ -43,7 +43,7 @@ std::string subtitle_of(const std::vector<report::RunSummary>& runs) {
 
 }  // namespace
 
-std::string make_report(const std::vector<StoredResult>& stored) {
+std::string make_report(const std::vector<StoredResult>& stored, const verification::CrossTier* comparison) {
   if (stored.empty()) throw InvalidInput("a report needs at least one folder with results");
   const auto runs = report::summarize(stored);
   return report::fill(embedded::report_template(),
@@ -52,6 +52,8 @@ std::string make_report(const std::vector<StoredResult>& stored) {
                        {"version", report::escape(program_version())},
                        {"uplot_style", std::string(embedded::uplot_style())},
                        {"style", std::string(embedded::report_style())},
+                       {"comparison", report::comparison_section(comparison)},
+                       {"differences", report::comparison_data(comparison)},
                        {"headline", report::headline_table(runs)},
                        {"claims", report::claims_section(stored)},
                        {"events", report::events_section(runs)},

@@ -188,6 +188,37 @@
     show();
   }
 
+  // What a verification found: the difference of a tier to the reference, and what it is made of.
+  function differenceCharts() {
+    const section = document.getElementById("comparison-charts");
+    if (!section) return;
+    const {comparisons} = JSON.parse(document.getElementById("differences").textContent);
+    const select = document.getElementById("compared-quantity");
+    for (const name of [...new Set(comparisons.flatMap(one => Object.keys(one.quantities)))])
+      select.append(element("option", {}, name));
+    let shown = [];
+    const show = () => {
+      for (const figure of shown) {
+        figure.plot.destroy();
+        figure.root.remove();
+        figures.splice(figures.indexOf(figure), 1);
+      }
+      shown = comparisons.filter(one => one.quantities[select.value]).map(one => {
+        const {unit, limit, lines} = one.quantities[select.value];
+        return new Figure(section, {
+          id: `difference-${one.tier}`, title: `${one.tier} minus ${one.reference}: ${select.value}`, unit, sync: "time",
+          xLabel: () => "time in the last beat, s", digits: 3, height: 320,
+          caption: `The difference and its parts, which add up to it. Limit: ${Number(limit.toPrecision(3))}${unit === "°" ? "" : " "}${unit}.`,
+          lines: lines.map((y, run) => ({run, runLabel: one.labels[run], part: 0, partLabel: "", x: one.time, y})),
+        });
+      });
+      figures.push(...shown);
+    };
+    select.addEventListener("change", show);
+    if (select.options.length) show();
+  }
+
+  differenceCharts();
   timeChart({id: "pressure", title: "Pressure", unit: "mmHg", figure: "cf. Fig. 6", digits: 2},
             [["pressure", "mid-length"], ["outlet_pressure", "outlet"]]);
   timeChart({id: "transmural", title: "Transmural pressure", unit: "mmHg", digits: 2}, [["transmural_pressure", "transmural"]]);

@@ -64,6 +64,7 @@ void label(std::vector<RunSummary>& runs) {
   const auto reading = [](const RunSummary& run) { return verification::reading_of(*run.stored); };
   const Labeller labellers[] = {
       [](const RunSummary& run) { return run.law; },
+      [](const RunSummary& run) { return fmt::format("{}, {}", run.law, run.tier); },
       [](const RunSummary& run) { return fmt::format("{}, {}", run.law, run.name); },
       [&](const RunSummary& run) { return fmt::format("{}, {}", run.law, reading(run)); },
       [&](const RunSummary& run) { return fmt::format("{}, {}, {}", run.law, run.name, reading(run)); },

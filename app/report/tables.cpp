@@ -34,14 +34,6 @@ std::string run_header(const RunSummary& run, std::size_t index, const char* res
   return fmt::format("<th scope=\"row\" class=\"run\">{}{}{}</th>", swatch(index), escape(run.label), rest);
 }
 
-/// A table in a box that scrolls sideways by itself, so that the page does not.
-std::string table(std::string_view caption, std::string_view head, std::string_view body) {
-  return fmt::format(
-      "<div class=\"scroll\" tabindex=\"0\"><table><caption>{}</caption><thead>{}</thead>"
-      "<tbody>{}</tbody></table></div>\n",
-      caption, head, body);
-}
-
 std::string shares(const RunSummary& run) {
   if (is_none(run.recruited_share[0])) return "<td class=\"none\" colspan=\"4\">no fibres</td>";
   std::string cells;

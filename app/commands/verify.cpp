@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+
+#include "app/commands/commands.hpp"
+#include "app/interrupt.hpp"
+#include "app/progress.hpp"
+#include "app/report/report.hpp"
+#include "app/tiers.hpp"
+#include "core/error.hpp"
+#include "verification/cross_tier.hpp"
+
+namespace tunica {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// The tiers of that names, or all that can compute the scene; the cheapest first, whatever the order.
+std::vector<const Tier*> chosen(const TierList& tiers, const VerifyArguments& arguments, const Scene& scene) {
+  std::vector<const Tier*> all;
+  for (const std::string& name : arguments.tiers) {
+    if (name == "auto") throw InvalidInput("--tiers auto: name the tiers to compare, or leave --tiers out");
+    choose_tier(tiers, name, scene);
+    if (std::count(arguments.tiers.begin(), arguments.tiers.end(), name) > 1)
+      throw InvalidInput(fmt::format("--tiers {}: {} is there twice; name each tier once",
+                                     fmt::join(arguments.tiers, ","), name));
+  }
+  std::string refusals;
+  for (const auto& tier : tiers) {
+    const bool is_named =
+        std::find(arguments.tiers.begin(), arguments.tiers.end(), tier->name()) != arguments.tiers.end();
+    if (!arguments.tiers.empty() && !is_named) continue;
+    if (const std::string reason = tier->refusal(scene); reason.empty())
+      all.push_back(tier.get());
+    else
+      refusals += fmt::format("; {}: {}", tier->name(), reason);
+  }
+  if (all.size() < 2)
+    throw InvalidInput(fmt::format(
+        "{}: verify compares at least two tiers, and here is {}{}; see tunica run for a single one",
+        scene.name(), all.empty() ? "none" : fmt::format("only {}", all.front()->name()), refusals));
+  return all;
+}
+
+/// What is left of an earlier verification does not stand beside the runs of this one.
+void remove_earlier(const fs::path& folder) {
+  std::error_code nothing_there;
+  for (const char* file : {"verify.json", "report.html"}) fs::remove(folder / file, nothing_there);
+}
+
+}  // namespace
+
+int verify_command(const VerifyArguments& arguments) {
+  const auto read = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> overrides = arguments.overrides;
+    overrides.insert(overrides.end(), more.begin(), more.end());
+    return read_scene(arguments.scene, overrides);
+  };
+  const Scene scene = read({});
+  const TierList tiers = available_tiers();
+  const auto compared = chosen(tiers, arguments, scene);
+  const fs::path folder =
+      arguments.out.empty() ? fs::path("results") / (scene.name() + "-verify") : fs::path(arguments.out);
+  if (!arguments.quiet)
+    for (const auto& remark : scene.remarks()) spdlog::warn(remark);
+
+  heed_interrupts();
+  verification::CrossTier found;
+  {
+    std::unique_ptr<ProgressDisplay> display;
+    verification::VerifyControl control;
+    control.begin = [&](const std::string& label) {
+      computation_begins();
+      remove_earlier(folder);
+      display.reset();
+      if (!arguments.quiet) spdlog::info("computing {}", label);
+      display = std::make_unique<ProgressDisplay>(arguments.quiet);
+    };
+    control.report = [&](const Progress& progress) { display->show(progress); };
+    control.interrupted = stop_asked;
+    found = verification::verify(compared, read, folder, control);
+  }
+  if (found.interrupted) {
+    fmt::print(stderr, "tunica: {}: interrupted; the runs so far are in {}, nothing was compared\n",
+               scene.name(), folder.string());
+    return interrupted;
+  }
+  const auto results = found.tier_results();
+  if (!results.empty()) write_whole(folder / "report.html", make_report(results, &found));
+  write_whole(folder / "verify.json",
+              to_json(found).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+  if (!arguments.quiet) fmt::print("{}{}: report.html, verify.json\n", to_text(found), folder.string());
+  if (const std::string failure = found.failure(); !failure.empty()) {
+    fmt::print(stderr, "tunica: {}: {}; results up to there are in {}\n", scene.name(), failure,
+               folder.string());
+    return gave_up;
+  }
+  return done;
+}
+
+}  // namespace tunica
