@@ -55,7 +55,8 @@ class Scheme {
   explicit Scheme(Method method, double spectral_radius = 0.5);
 
   /// Begins at `time` and forgets the past, as is needed after a discontinuity. `rate` is dy/dt there, or
-  /// empty when it is not known: then the first step has no error estimate.
+  /// empty when it is not known: then the first step has no error estimate. Estimates of the first
+  /// steps are useless for entries that jump away from their values here, as pressures may after a load has.
   void start(double time, std::vector<double> value, std::vector<double> rate = {});
 
   /// Prepares a step from time(). May be called again with another step when the step is rejected.

@@ -100,7 +100,7 @@ Trace integrate(Method method, double tolerance, bool announced, const StepOptio
   Trace run;
   Vector y, error(2);
   while (scheme.time() < end) {
-    if (static_cast<int>(run.times.size()) == save_after) *saved = {scheme.save(), control.save()};
+    if (saved && static_cast<int>(run.times.size()) == save_after) *saved = {scheme.save(), control.save()};
     const double stop = announced ? corner(piece_at(scheme.time()) + 1) : end;
     const time::Step step = control.next(scheme.time(), stop);
     scheme.begin(step);
