@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <span>
+#include <string>
+
+#include "axisym/mesh.hpp"
+
+namespace tunica::axisym {
+
+/// "(r, z) = (0.033, 0.1) cm", for messages.
+std::string where(const std::array<double, 2>& point);
+
+/// "triangle 12": by the file's tags, or counted from 0 without them.
+std::string cell_name(const Mesh& mesh, int cell, std::span<const long> tags = {});
+
+/// The checks below refuse a mesh (InvalidInput: label, what is wrong, where, remedy) that no computation
+/// could use; `tags` are those of the cells in the mesh's file.
+
+/// The determinant of every cell's map is positive at its quadrature points, above 1e-6 of its mean, and not
+/// negative at its nodes.
+void check_cells(const Mesh& mesh, const std::string& label, std::span<const long> tags = {});
+
+/// Each part is bounded by one closed line, which passes its boundaries once each in their order about the
+/// part; inlet and outlet are planes z = const.
+void check_outline(const Mesh& mesh, const std::string& label);
+
+/// Layers follow each other from the interface to the outer surface.
+void check_layers(const Mesh& mesh, const std::string& label, std::span<const long> tags = {});
+
+}  // namespace tunica::axisym
