@@ -30,8 +30,10 @@ bool is_free(std::string_view key) {
                                                    "wall.activation_stretch",
                                                    "wall.recruitment",
                                                    "time.beats",
-                                                   "time.start"};
-  static constexpr std::string_view free_sections[] = {"accuracy.", "output.", "sensitivity."};
+                                                   "time.start",
+                                                   "time.scheme",
+                                                   "time.step"};
+  static constexpr std::string_view free_sections[] = {"accuracy.", "mesh.", "output.", "sensitivity."};
   return std::find(std::begin(free_keys), std::end(free_keys), key) != std::end(free_keys) ||
          std::any_of(std::begin(free_sections), std::end(free_sections),
                      [&](std::string_view section) { return key.starts_with(section); });

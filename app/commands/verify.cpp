@@ -21,30 +21,41 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The tiers of that names, or all that can compute the scene; the cheapest first, whatever the order.
-std::vector<const Tier*> chosen(const TierList& tiers, const VerifyArguments& arguments, const Scene& scene) {
-  std::vector<const Tier*> all;
-  for (const std::string& name : arguments.tiers) {
-    if (name == "auto") throw InvalidInput("--tiers auto: name the tiers to compare, or leave --tiers out");
-    choose_tier(tiers, name, scene);
-    if (std::count(arguments.tiers.begin(), arguments.tiers.end(), name) > 1)
-      throw InvalidInput(fmt::format("--tiers {}: {} is there twice; name each tier once",
-                                     fmt::join(arguments.tiers, ","), name));
+/// Throws InvalidInput unless the names are those of tiers, each once.
+void check_names(const TierList& tiers, const std::vector<std::string>& names) {
+  std::vector<std::string_view> known;
+  for (const auto& tier : tiers) known.push_back(tier->name());
+  for (const std::string& name : names) {
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      throw InvalidInput(
+          fmt::format("--tiers {}: not a tier of this program, which has: {}", name, fmt::join(known, ", ")));
+    if (std::count(names.begin(), names.end(), name) > 1)
+      throw InvalidInput(
+          fmt::format("--tiers {}: {} is there twice; name each tier once", fmt::join(names, ","), name));
   }
-  std::string refusals;
+}
+
+/// The tiers of these names or, without any, all that can compute the scene; the cheapest first, whatever the
+/// order. `refused` tells of the others.
+std::vector<const Tier*> chosen(const TierList& tiers, const std::vector<std::string>& names,
+                                const Scene& scene, std::vector<std::string>& refused) {
+  check_names(tiers, names);
+  std::vector<const Tier*> all;
   for (const auto& tier : tiers) {
-    const bool is_named =
-        std::find(arguments.tiers.begin(), arguments.tiers.end(), tier->name()) != arguments.tiers.end();
-    if (!arguments.tiers.empty() && !is_named) continue;
-    if (const std::string reason = tier->refusal(scene); reason.empty())
+    if (!names.empty() && std::find(names.begin(), names.end(), tier->name()) == names.end()) continue;
+    const std::string reason = tier->refusal(scene);
+    if (reason.empty())
       all.push_back(tier.get());
     else
-      refusals += fmt::format("; {}: {}", tier->name(), reason);
+      refused.push_back(fmt::format("tier {}: {}", tier->name(), reason));
   }
+  if (!names.empty() && !refused.empty())
+    throw InvalidInput(fmt::format("{}: {}", scene.name(), refused.front()));
   if (all.size() < 2)
-    throw InvalidInput(fmt::format(
-        "{}: verify compares at least two tiers, and here is {}{}; see tunica run for a single one",
-        scene.name(), all.empty() ? "none" : fmt::format("only {}", all.front()->name()), refusals));
+    throw InvalidInput(
+        fmt::format("{}: verify compares at least two tiers, and here is {}{}{}; tunica run takes one",
+                    scene.name(), all.empty() ? "none" : fmt::format("only {}", all.front()->name()),
+                    refused.empty() ? "" : "; ", fmt::join(refused, "; ")));
   return all;
 }
 
@@ -64,11 +75,14 @@ int verify_command(const VerifyArguments& arguments) {
   };
   const Scene scene = read({});
   const TierList tiers = available_tiers();
-  const auto compared = chosen(tiers, arguments, scene);
+  std::vector<std::string> refused;
+  const auto compared = chosen(tiers, arguments.tiers, scene, refused);
   const fs::path folder =
       arguments.out.empty() ? fs::path("results") / (scene.name() + "-verify") : fs::path(arguments.out);
-  if (!arguments.quiet)
+  if (!arguments.quiet) {
     for (const auto& remark : scene.remarks()) spdlog::warn(remark);
+    for (const auto& reason : refused) spdlog::warn("not compared: {}", reason);
+  }
 
   heed_interrupts();
   verification::CrossTier found;

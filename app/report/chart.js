@@ -105,7 +105,7 @@ const Chart = (() => {
         const values = line.y.filter(value => value !== null && value !== undefined);
         let lowest = Infinity, highest = -Infinity;
         for (const value of values) { lowest = Math.min(lowest, value); highest = Math.max(highest, value); }
-        return `${line.runLabel} ${line.partLabel}: ${format(lowest, digits)} to ${format(highest, digits)}`;
+        return `${[line.runLabel, line.partLabel].filter(Boolean).join(" ")}: ${format(lowest, digits)} to ${format(highest, digits)}`;
       });
       canvas.setAttribute("role", "img");
       canvas.setAttribute("aria-label",

@@ -121,7 +121,7 @@ std::string comparison_section(const CrossTier* found) {
 }
 
 std::string comparison_data(const CrossTier* found) {
-  constexpr int digits = 4, time_digits = 10;
+  constexpr int digits = 6, time_digits = 10;
   std::string json = "{\"comparisons\":[";
   if (found)
     for (const TierComparison& comparison : found->comparisons) {

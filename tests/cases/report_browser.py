@@ -57,6 +57,29 @@ class Report(unittest.TestCase):
         self.assertFalse(self.value("document.getElementById('sensitivity-section').hidden"))
         self.assertIn("outlet.resistance", self.value("document.getElementById('chart-sensitivity').textContent"))
 
+    def test_tiers_compared(self):
+        self.opens("verify", 14)
+        section = "document.querySelector('section[aria-labelledby=compared]')"
+        # 55 mmHg of range; 5 % of 130 mmHg is 6.5 mmHg, of which 2 % and 2.9 % are explained.
+        cells = self.value(f"[...{section}.querySelector('tbody tr').cells].map(cell => cell.textContent)")
+        self.assertEqual(cells[0], "pressure, %")
+        expected = [1, 100 * 6.5 / 57.75, None, 100 * 2.6 / 57.75, 100 * 0.13 / 57.75, 100 * 3.77 / 57.75]
+        for cell, value in zip(cells[1:], expected):
+            if value is not None:
+                self.assertAlmostEqual(float(cell), value, delta=0.006)
+        self.assertIn("differs by the model", cells[-1])
+        self.assertIn("<b>ends</b>", self.value(f"{section}.textContent"))
+        chart = "document.getElementById('chart-difference-low')"
+        self.assertIn("low minus high: pressure", self.value(f"{chart}.textContent"))
+        label = self.value(f"{chart}.querySelector('canvas').getAttribute('aria-label')")
+        self.assertIn("difference: \u221211.255 to", label)
+        self.value("""(() => { const select = document.getElementById('compared-quantity');
+            select.value = 'displacement P1'; select.dispatchEvent(new Event('change')); })()""")
+        time.sleep(0.1)
+        self.assertIn("displacement P1", self.value(f"{chart}.textContent"))
+        self.assertEqual(self.value("document.querySelectorAll('#comparison-charts figure').length"), 1)
+        self.assertEqual(self.browser.complaints(), [])
+
     def test_a_law_without_fibres_says_so(self):
         self.opens("isotropic", 8)
         notes = self.value("[...document.querySelectorAll('.charts > .note')].map(note => note.textContent)")
@@ -70,7 +93,7 @@ class Report(unittest.TestCase):
         self.opens("hostile", 13)
         self.assertIsNone(self.value("document.documentElement.dataset.broken || null"))
         self.assertEqual(self.value("document.querySelectorAll('img').length"), 0)
-        self.assertEqual(self.value("document.scripts.length"), 4)
+        self.assertEqual(self.value("document.scripts.length"), 5)
         self.assertTrue(self.value("document.querySelector('h1').textContent.includes('</script><script>')"))
         self.assertTrue(self.value("document.querySelector('h1').textContent.includes('{{data}}&amp;')"))
 

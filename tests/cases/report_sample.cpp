@@ -4,7 +4,9 @@
 #include <iostream>
 
 #include "app/report/report.hpp"
+#include "tests/support/fake_tier.hpp"
 #include "tests/support/synthetic.hpp"
+#include "verification/cross_tier.hpp"
 
 using namespace tunica;
 using test_support::synthetic_run;
@@ -38,6 +40,34 @@ StoredResult finer_in_time() {
   return synthetic_run({.name = "fine", .interval = 0.0007});
 }
 
+/// Made-up curves whose pressure and displacement are larger by so many parts.
+Result larger_by(double share) {
+  Result result = synthetic_run({.lowest_pressure = 75 * (1 + share),
+                                 .highest_pressure = 130 * (1 + share),
+                                 .displacement_scale = 0.02 * (1 + share)})
+                      .result;
+  result.record.converged = true;
+  return result;
+}
+
+/// A verification of two made-up tiers with a rung on each side.
+verification::CrossTier verified(const std::filesystem::path& folder) {
+  const test_support::FakeTier low{"low", [](const Scene& scene, const RunControl&) {
+                                     return larger_by(scene.flag("lumped.inertance") ? 0.02 : 0.0);
+                                   }};
+  const test_support::FakeTier high{"high", [](const Scene& scene, const RunControl&) {
+                                      return larger_by(scene.number("wall.density") == 2 ? 0.021 : 0.05);
+                                    }};
+  const auto scene = [](const std::vector<std::string>& overrides) {
+    return parse_scene("[geometry]\n", "made", ".", overrides);
+  };
+  return verification::verify({&low, &high}, scene, folder, {},
+                              {{"low",
+                                "high",
+                                {{"inertance", {"lumped.inertance=true"}, "inertia"}},
+                                {{"ends", {"wall.density=2"}, "<b>ends</b>"}}}});
+}
+
 }  // namespace
 
 int main(int count, char** arguments) {
@@ -48,5 +78,7 @@ int main(int count, char** arguments) {
   write_whole(folder / "isotropic.html", make_report({synthetic_run({.law = "EXP1"})}));
   write_whole(folder / "hostile.html", make_report({hostile()}));
   write_whole(folder / "grids.html", make_report({synthetic_run({.law = "EXP1"}), finer_in_time()}));
+  const verification::CrossTier found = verified(folder / "verify");
+  write_whole(folder / "verify.html", make_report(found.tier_results(), &found));
   return 0;
 }
