@@ -71,6 +71,15 @@ Checkpoint rich_checkpoint() {
   return checkpoint;
 }
 
+/// record.json of a result, the order of its keys included, without the memory that this process takes.
+std::string record_of(const Scene& scene, const Result& result) {
+  const TemporaryFolder folder;
+  write_result(folder.path(), scene, result);
+  nlohmann::ordered_json record = read_result(folder.path()).record;
+  record.erase("peak_memory_bytes");
+  return record.dump();
+}
+
 std::string refusal(const fs::path& folder, const Scene& scene, const char* tier = "made up") {
   try {
     read_checkpoint(folder, scene, tier);
@@ -120,10 +129,7 @@ TEST(CheckpointFile, ReadsBackWhatWasWritten) {
   EXPECT_TRUE(std::signbit(after.compartments[0].values[1]));
   ASSERT_EQ(after.fields.size(), 1U);
   EXPECT_EQ(observables::to_xdmf(after.fields[0]), observables::to_xdmf(before.fields[0]));
-  TemporaryFolder one, other;
-  write_result(one.path(), scene, before);
-  write_result(other.path(), scene, after);
-  EXPECT_EQ(read_text(other.path() / "record.json"), read_text(one.path() / "record.json"));
+  EXPECT_EQ(record_of(scene, after), record_of(scene, before));
   remove_checkpoint(folder.path());
   EXPECT_FALSE(has_checkpoint(folder.path()));
   remove_checkpoint(folder.path());
