@@ -57,26 +57,26 @@ std::vector<UnstableRange> unstable_ranges(
     return unstable;
   };
 
-  const double from = lumen_stretch_at(model, scan.lower), to = lumen_stretch_at(model, scan.upper);
   std::vector<UnstableRange> ranges;
+  const auto begin = [&](const State& state, bool open) {
+    ranges.push_back({state.pressure, state.pressure, open, true, longest(state), longest(state)});
+  };
+  const auto go_on = [&](const State& state, bool open) {
+    UnstableRange& range = ranges.back();
+    range.lower = std::min(range.lower, state.pressure);
+    range.upper = std::max(range.upper, state.pressure);
+    range.open_above = open;
+    range.last = longest(state);
+  };
+  const double from = lumen_stretch_at(model, scan.lower), to = lumen_stretch_at(model, scan.upper);
   State before = state_at(from);
-  if (!before.ripples.empty()) ranges.push_back({before.pressure, 0, true, false, longest(before), {}});
+  if (!before.ripples.empty()) begin(before, true);
   for (int k = 1; k <= scan.steps; ++k) {
     State here = state_at(from + (to - from) * k / scan.steps);
-    if (before.ripples.empty() && !here.ripples.empty()) {
-      const State first = edge(here, before);
-      ranges.push_back({first.pressure, 0, false, false, longest(first), {}});
-    } else if (!before.ripples.empty() && here.ripples.empty()) {
-      const State last = edge(before, here);
-      ranges.back().upper = last.pressure;
-      ranges.back().last = longest(last);
-    }
+    if (before.ripples.empty() && !here.ripples.empty()) begin(edge(here, before), false);
+    if (!here.ripples.empty()) go_on(here, true);
+    if (!before.ripples.empty() && here.ripples.empty()) go_on(edge(before, here), false);
     before = std::move(here);
-  }
-  if (!before.ripples.empty()) {
-    ranges.back().upper = before.pressure;
-    ranges.back().open_above = true;
-    ranges.back().last = longest(before);
   }
   return ranges;
 }

@@ -31,13 +31,13 @@ std::vector<Ripple> unstable_ripples(const BaseState& base, const Ripples& rippl
 /// the limit of short waves, so that the problem is ill-posed, see HalfSpace.
 std::vector<Ripple> ill_posed_ripples(const BaseState& base, bool oblique);
 
-/// Lumen pressures between which the wall is unstable, dyn/cm2, in the order of growing lumen stretch.
+/// A stretch of the curve of equilibria on which the wall is unstable.
 struct UnstableRange {
-  double lower, upper;
-  /// The range ends where the scan does, and so may go on.
+  double lower, upper;  ///< least and greatest lumen pressure on it, dyn/cm2
+  /// It begins or ends where the scan does, and so may go on.
   bool open_below, open_above;
-  Ripple first;  ///< becomes unstable first; where the range is open, the longest of the unstable ripples
-  Ripple last;   ///< remains unstable longest
+  Ripple first;  ///< at its least lumen stretch, the longest of the unstable ripples
+  Ripple last;   ///< the same at its greatest lumen stretch
 };
 
 struct Scan {
@@ -47,7 +47,8 @@ struct Scan {
   Resolution resolution = {};
 };
 
-/// Where `search` finds ripples. Throws SolverFailure when the wall has no equilibrium within the scan.
+/// Where `search` finds ripples, in the order of growing lumen stretch. Throws SolverFailure when the wall
+/// has no equilibrium within the scan.
 std::vector<UnstableRange> unstable_ranges(
     const radial::RingModel& model, const Scan& scan,
     const std::function<std::vector<Ripple>(const BaseState&)>& search);
