@@ -51,6 +51,8 @@ class Parser {
       const bool known =
           section == "PhysicalNames" || section == "Entities" || section == "Nodes" || section == "Elements";
       if (section == "PartitionedEntities") text_.refuse("the mesh is partitioned; save it in one piece");
+      if (section == "ParametricNodes")
+        text_.refuse("the nodes are parametric; save them as plain ones (Mesh.SaveParametric = 0)");
       if (known && !seen.insert(section).second)
         text_.refuse(fmt::format("a second section ${}; save the mesh again", section));
       text_.enter(section);
