@@ -86,12 +86,14 @@ class Maker {
   std::size_t rung_run(const Tier& tier, const Scene& scene, const Rung& rung,
                        const std::vector<std::string>& overrides) {
     const std::string id = fmt::format("{}-{}", tier.name(), rung.id);
-    const std::string label = fmt::format("{}", fmt::join(overrides, ", "));
-    for (std::size_t k = 0; k < found_.runs.size(); ++k)
-      if (found_.runs[k].id == id && found_.runs[k].label == fmt::format("{}, {}", tier.name(), label))
-        return k;
+    const std::string how = fmt::format("{}", fmt::join(overrides, ", "));
+    // Ladders to different tiers may share a rung.
+    const auto made = std::find_if(found_.runs.begin(), found_.runs.end(), [&](const VerifiedRun& run) {
+      return run.id == id && run.label == fmt::format("{}, {}", tier.name(), how);
+    });
+    if (made != found_.runs.end()) return static_cast<std::size_t>(made - found_.runs.begin());
     StoredRun run(tier, scene, folder_ / id, false);
-    return execute(run, id, tier, label);
+    return execute(run, id, tier, how);
   }
 
   std::size_t execute(StoredRun& computation, std::string id, const Tier& tier, const std::string& how) {

@@ -14,7 +14,6 @@
 #include "tests/support/temporary_folder.hpp"
 
 using namespace tunica;
-using test_support::count_entries;
 using test_support::read_text;
 using test_support::TemporaryFolder;
 namespace fs = std::filesystem;
