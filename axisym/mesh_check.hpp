@@ -18,8 +18,7 @@ std::string cell_name(const Mesh& mesh, int cell, std::span<const long> tags = {
 /// The checks below refuse a mesh (InvalidInput: label, what is wrong, where, remedy) that no computation
 /// could use; `tags` are those of the cells in the mesh's file.
 
-/// The determinant of every cell's map is positive at its quadrature points, above 1e-6 of its mean, and not
-/// negative at its nodes.
+/// The determinant of every cell's map is positive at its quadrature points and not negative at its nodes.
 void check_cells(const Mesh& mesh, const std::string& label, std::span<const long> tags = {});
 
 /// Each part is bounded by one closed line, which passes its boundaries once each in their order about the

@@ -116,383 +116,388 @@ std::vector<BadMesh> files() {
       {"nodes_do_not_add_up",
        replaced("4.1", "$Nodes\n1 20 ", "$Nodes\n1 19 "),
        {"19 nodes", "blocks hold 20"}},
+      {"elements_do_not_add_up",
+       replaced("4.1", "$Elements\n7 22 ", "$Elements\n7 23 "),
+       {"23 elements", "blocks hold 22"}},
       {"tetrahedron",
        spoilt(
-           quadrilateral4, [](auto& m) {
-      m.elements[5].type = 4; }, "2.2"),
+           quadrilateral4, [](auto& m) { m.elements[5].type = 4; }, "2.2"),
        {"element 6 has the type 4", "triangles and quadrilaterals", "Mesh.ElementOrder"}},
       {"order_three",
-       spoilt(triangle6, [](auto& m) {
-      m.elements[5].type = 21; }),
+       spoilt(triangle6, [](auto& m) { m.elements[5].type = 21; }),
        {"element 6 has the type 21", "order 1 or 2", "Mesh.ElementOrder = 2"}},
       {"type_in_wrong_dimension", replaced("4.1", "\n2 6 3 8\n", "\n2 6 1 8\n"), {"type 1", "dimension 2"}},
       {"in_two_parts",
        replaced("4.1", "\n6 0 0 0 1 1 0 1 6 0\n", "\n6 0 0 0 1 1 0 2 6 7 0\n"),
        {"quadrilateral 1 is in 2 parts", "\"blood\" and \"wall\"", "one physical surface"}},
   };
-  }
+}
 
-  std::vector<BadMesh> parts() {
-    Stenosis layered = straight(triangle6);
-    layered.layered = true;
-    layered.wall_cells = 3;
-    return {
-        {"no_cells",
-         spoilt(triangle3, [](auto& m) { remove(m, "blood"), remove(m, "wall"); }),
-         {"no triangle and no quadrilateral", "gmsh -2"}},
-        {"mixed_shapes",
-         spoilt(quadrilateral4,
-                [](auto& m) {
-                  auto& cell = element_of(m, "wall");
-                  cell.type = triangle3;
-                  cell.nodes.pop_back();
-                }),
-         {"1 triangles and 11 quadrilaterals are mixed", "Recombine"}},
-        {"cell_without_part",
-         spoilt(
-             triangle6, [](auto& m) { element_of(m, "wall", 2).name = ""; }, "2.2"),
-         {"in no named part", "physical surface", "\"blood\""}},
-        {"part_misspelt",
-         spoilt(triangle6, [](auto& m) { rename(m, "blood", "bloood"); }),
-         {"\"bloood\" is unknown", "did you mean blood?"}},
-        {"layer_zero",
-         spoilt(triangle6, [](auto& m) { rename(m, "wall", "wall:0"); }),
-         {"\"wall:0\" is unknown"}},
-        {"layer_no_number",
-         spoilt(triangle6, [](auto& m) { rename(m, "wall", "wall:in"); }),
-         {"\"wall:in\""}},
-        {"layers_and_a_wall",
-         spoilt(layered, [](auto& m) { rename(m, "wall:2", "wall"); }),
-         {"partly \"wall\"", "all of its layers, or none"}},
-        {"layer_missing",
-         spoilt(layered, [](auto& m) { rename(m, "wall:2", "wall:4"); }),
-         {"4 layers but no cell in \"wall:2\"", "from 1"}},
-        {"layers_outside_in",
-         spoilt(layered,
-                [](auto& m) {
-                  rename(m, "wall:1", "x");
-                  rename(m, "wall:3", "wall:1");
-                  rename(m, "x", "wall:3");
-                }),
-         {"in layer 1 of 3 is at the outer surface", "from the lumen outwards", "(r, z)"}},
-        {"layers_shuffled",
-         spoilt(
-             [] {
-               Stenosis four = straight(triangle6);
-               four.layered = true;
-               four.wall_cells = 5;
-               return four;
-             }(),
-             [](auto& m) {
-               rename(m, "wall:2", "x");
-               rename(m, "wall:4", "wall:2");
-               rename(m, "x", "wall:4");
-             }),
-         {"touches layer", "from the lumen outwards"}},
-        {"part_declared_but_empty",
-         [] {
-           Stenosis pipe = straight(quadrilateral4);
-           pipe.wall_cells = 0;
-           std::string text = stenosis_mesh(pipe).text("4.1");
-           return text.replace(text.find("$PhysicalNames\n3\n"), 17, "$PhysicalNames\n4\n2 30 \"wall\"\n");
-         }(),
-         {"\"wall\" has no cells", "mesh its surface"}},
-    };
-  }
+std::vector<BadMesh> parts() {
+  Stenosis layered = straight(triangle6);
+  layered.layered = true;
+  layered.wall_cells = 3;
+  return {
+      {"no_cells",
+       spoilt(triangle3, [](auto& m) { remove(m, "blood"), remove(m, "wall"); }),
+       {"no triangle and no quadrilateral", "gmsh -2"}},
+      {"mixed_shapes",
+       spoilt(quadrilateral4,
+              [](auto& m) {
+                auto& cell = element_of(m, "wall");
+                cell.type = triangle3;
+                cell.nodes.pop_back();
+              }),
+       {"1 triangles and 11 quadrilaterals are mixed", "Recombine"}},
+      {"cell_without_part",
+       spoilt(
+           triangle6, [](auto& m) { element_of(m, "wall", 2).name = ""; }, "2.2"),
+       {"in no named part", "physical surface", "\"blood\""}},
+      {"part_misspelt",
+       spoilt(triangle6, [](auto& m) { rename(m, "blood", "bloood"); }),
+       {"\"bloood\" is unknown", "did you mean blood?"}},
+      {"layer_zero",
+       spoilt(triangle6, [](auto& m) { rename(m, "wall", "wall:0"); }),
+       {"\"wall:0\" is unknown"}},
+      {"layer_no_number", spoilt(triangle6, [](auto& m) { rename(m, "wall", "wall:in"); }), {"\"wall:in\""}},
+      {"layers_and_a_wall",
+       spoilt(layered, [](auto& m) { rename(m, "wall:2", "wall"); }),
+       {"partly \"wall\"", "all of its layers, or none"}},
+      {"layer_missing",
+       spoilt(layered, [](auto& m) { rename(m, "wall:2", "wall:4"); }),
+       {"4 layers but no cell in \"wall:2\"", "from 1"}},
+      {"layers_outside_in",
+       spoilt(layered,
+              [](auto& m) {
+                rename(m, "wall:1", "x");
+                rename(m, "wall:3", "wall:1");
+                rename(m, "x", "wall:3");
+              }),
+       {"in layer 1 of 3 is at the outer surface", "from the lumen outwards", "(r, z)"}},
+      {"layers_shuffled",
+       spoilt(
+           [] {
+             Stenosis four = straight(triangle6);
+             four.layered = true;
+             four.wall_cells = 5;
+             return four;
+           }(),
+           [](auto& m) {
+             rename(m, "wall:2", "x");
+             rename(m, "wall:4", "wall:2");
+             rename(m, "x", "wall:4");
+           }),
+       {"touches layer", "from the lumen outwards"}},
+      {"part_declared_but_empty",
+       [] {
+         Stenosis pipe = straight(quadrilateral4);
+         pipe.wall_cells = 0;
+         std::string text = stenosis_mesh(pipe).text("4.1");
+         return text.replace(text.find("$PhysicalNames\n3\n"), 17, "$PhysicalNames\n4\n2 30 \"wall\"\n");
+       }(),
+       {"\"wall\" has no cells", "mesh its surface"}},
+  };
+}
 
-  std::vector<BadMesh> cells() {
-    return {
-        {"out_of_plane",
-         spoilt(triangle6, [](auto& m) { node_at(m, 1, 2).z = 0.1; }),
-         {"z = 0.1", "(r, z) = (1, 2) cm", "plane of x = r and y = z"}},
-        {"negative_radius",
-         spoilt(triangle6, [](auto& m) { node_at(m, 0, 1).x = -0.01; }),
-         {"(r, z) = (-0.01, 1) cm has a negative radius", "half plane"}},
-        {"node_repeated",
-         spoilt(triangle6, [](auto& m) { element_of(m, "wall").nodes[4] = element_of(m, "wall").nodes[0]; }),
-         {"degenerate", "twice", "remesh"}},
-        {"no_area",
-         spoilt(quadrilateral4,
-                [](auto& m) {
-                  node_at(m, 0.5, 1).y = 0;
-                  node_at(m, 0, 1).y = 0;
-                }),
-         {"degenerate", "area is 0 cm2", "(r, z)"}},
-        {"crossed_corners",
-         spoilt(quadrilateral9,
-                [](auto& m) {
-                  std::swap(element_of(m, "blood", 1).nodes[1], element_of(m, "blood", 1).nodes[2]);
-                }),
-         {"degenerate"}},
-        {"side_beyond_its_cell",
-         spoilt(triangle6, [](auto& m) { node_at(m, 1, 0.5).x = 1.45; }),
-         {"triangle", "is inverted", "determinant", "(r, z)", "Mesh.HighOrderOptimize"}},
-        {"middle_at_its_end",
-         spoilt(quadrilateral8, [](auto& m) { node_at(m, 1, 0.5).y = 0.1; }),
-         {"quadrilateral", "is inverted", "(r, z) = (1, 0) cm"}},
-        {"reentrant_corner",
-         spoilt(quadrilateral4,
-                [](auto& m) {
-                  node_at(m, 0.5, 1) = {node_at(m, 0.5, 1).tag, 0.15, 0.25, 0};
-                }),
-         {"is inverted", "smaller cells"}},
-        {"cell_twice",
-         spoilt(triangle6,
-                [](auto& m) { m.elements.push_back(element_of(m, "wall")), m.elements.back().tag = 777; }),
-         {"has the corners of triangle 777 at (r, z)", "duplicate cells", "one physical surface"}},
-        {"three_cells_on_a_side",
-         spoilt(quadrilateral4,
-                [](auto& m) {
-                  m.nodes.push_back({900, 0.6, 3.8, 0});
-                  m.nodes.push_back({901, 0.6, 3.3, 0});
-                  const long a = node_at(m, 0.5, 3).tag, b = node_at(m, 0.5, 4).tag;
-                  m.elements.push_back({777, quadrilateral4, "blood", {a, 901, 900, b}});
-                }),
-         {"777", "overlap"}},
-        {"nodes_not_shared",
-         spoilt(triangle6,
-                [](auto& m) {
-                  // The wall gets nodes of its own on the interface, as of two surfaces that were never
-                  // united.
-                  const std::vector<GmshModel::Node> before = m.nodes;
-                  for (const auto& node : before) {
-                    if (node.x != 1) continue;
-                    m.nodes.push_back({node.tag + 1000, node.x, node.y, 0});
-                    for (auto& element : m.elements)
-                      if (element.name.starts_with("wall"))
-                        std::replace(element.nodes.begin(), element.nodes.end(), node.tag, node.tag + 1000);
-                  }
-                }),
-         {"(r, z) = (1,", "do not share their nodes", "Coherence"}},
-        {"hanging_node_of_linear_cells",
-         spoilt(triangle3,
-                [](auto& m) {
-                  // One of two triangles beside the side from (0.5, 1) to (0.5, 2) is halved, the other is
-                  // not.
-                  const long a = node_at(m, 0.5, 1).tag, b = node_at(m, 0.5, 2).tag;
-                  m.nodes.push_back({900, 0.5, 1.5, 0});
-                  for (std::size_t k = 0; k < m.elements.size(); ++k) {
-                    auto& nodes = m.elements[k].nodes;
-                    const auto has = [&](long tag) {
-                      return std::count(nodes.begin(), nodes.end(), tag) > 0;
-                    };
-                    if (nodes.size() != 3 || !has(a) || !has(b)) continue;
-                    auto half = m.elements[k];
-                    half.tag = 777;
-                    std::replace(nodes.begin(), nodes.end(), a, 900L);
-                    std::replace(half.nodes.begin(), half.nodes.end(), b, 900L);
-                    m.elements.push_back(half);
-                    return;
-                  }
-                }),
-         {"(r, z) = (0.5, 1.5) cm hangs on a side", "Coherence"}},
-        {"hanging_node_of_quadratic_cells",
-         spoilt(quadrilateral8,
-                [](auto& m) {
-                  // The middle of a side of blood becomes a corner of the wall.
-                  auto& nodes = element_of(m, "wall", 3).nodes;
-                  std::replace(nodes.begin(), nodes.end(), node_at(m, 1, 3).tag, node_at(m, 1, 2.5).tag);
-                }),
-         {"hanging node", "Coherence"}},
-        {"two_middles",
-         spoilt(triangle6,
-                [](auto& m) {
-                  m.nodes.push_back({900, 1.01, 2.5, 0});
+std::vector<BadMesh> cells() {
+  return {
+      {"out_of_plane",
+       spoilt(triangle6, [](auto& m) { node_at(m, 1, 2).z = 0.1; }),
+       {"z = 0.1", "(r, z) = (1, 2) cm", "plane of x = r and y = z"}},
+      {"negative_radius",
+       spoilt(triangle6, [](auto& m) { node_at(m, 0, 1).x = -0.01; }),
+       {"(r, z) = (-0.01, 1) cm has a negative radius", "half plane"}},
+      {"node_repeated",
+       spoilt(triangle6, [](auto& m) { element_of(m, "wall").nodes[4] = element_of(m, "wall").nodes[0]; }),
+       {"degenerate", "twice", "remesh"}},
+      {"no_area",
+       spoilt(quadrilateral4,
+              [](auto& m) {
+                node_at(m, 0.5, 1).y = 0;
+                node_at(m, 0, 1).y = 0;
+              }),
+       {"degenerate", "area is 0 cm2", "(r, z)"}},
+      {"crossed_corners",
+       spoilt(quadrilateral9,
+              [](auto& m) {
+                std::swap(element_of(m, "blood", 1).nodes[1], element_of(m, "blood", 1).nodes[2]);
+              }),
+       {"degenerate"}},
+      {"side_beyond_its_cell",
+       spoilt(triangle6, [](auto& m) { node_at(m, 1, 0.5).x = 1.45; }),
+       {"triangle", "is inverted", "determinant", "(r, z)", "Mesh.HighOrderOptimize"}},
+      {"middle_at_its_end",
+       spoilt(quadrilateral8, [](auto& m) { node_at(m, 1, 0.5).y = 0.1; }),
+       {"quadrilateral", "is inverted", "(r, z) = (1, 0) cm"}},
+      {"reentrant_corner",
+       spoilt(quadrilateral4,
+              [](auto& m) {
+                node_at(m, 0.5, 1) = {node_at(m, 0.5, 1).tag, 0.15, 0.25, 0};
+              }),
+       {"is inverted", "smaller cells"}},
+      {"cell_twice",
+       spoilt(triangle6,
+              [](auto& m) { m.elements.push_back(element_of(m, "wall")), m.elements.back().tag = 777; }),
+       {"has the corners of triangle 777 at (r, z)", "duplicate cells", "one physical surface"}},
+      {"three_cells_on_a_side",
+       spoilt(quadrilateral4,
+              [](auto& m) {
+                m.nodes.push_back({900, 0.6, 3.8, 0});
+                m.nodes.push_back({901, 0.6, 3.3, 0});
+                const long a = node_at(m, 0.5, 3).tag, b = node_at(m, 0.5, 4).tag;
+                m.elements.push_back({777, quadrilateral4, "blood", {a, 901, 900, b}});
+              }),
+       {"777", "overlap"}},
+      {"folded_over",
+       spoilt(quadrilateral4,
+              [](auto& m) {
+                m.nodes.push_back({900, 0.6, 3.5, 0});
+                m.nodes.push_back({901, 0.9, 3.5, 0});
+                m.elements.push_back(
+                    {777, quadrilateral4, "blood", {900, 901, node_at(m, 1, 4).tag, node_at(m, 0.5, 4).tag}});
+              }),
+       {"777", "(0.75, 4) cm overlap", "each surface once"}},
+      {"nodes_not_shared",
+       spoilt(triangle6,
+              [](auto& m) {
+                // The wall gets nodes of its own on the interface, as of two surfaces that were never
+                // united.
+                const std::vector<GmshModel::Node> before = m.nodes;
+                for (const auto& node : before) {
+                  if (node.x != 1) continue;
+                  m.nodes.push_back({node.tag + 1000, node.x, node.y, 0});
                   for (auto& element : m.elements)
-                    if (element.name == "wall")
-                      std::replace(element.nodes.begin(), element.nodes.end(), node_at(m, 1, 2.5).tag, 900L);
-                }),
-         {"two middles", "900", "Coherence"}},
-    };
-  }
+                    if (element.name.starts_with("wall"))
+                      std::replace(element.nodes.begin(), element.nodes.end(), node.tag, node.tag + 1000);
+                }
+              }),
+       {"(r, z) = (1,", "do not share their nodes", "Coherence"}},
+      {"hanging_node_of_linear_cells",
+       spoilt(triangle3,
+              [](auto& m) {
+                // One of two triangles beside the side from (0.5, 1) to (0.5, 2) is halved, the other is
+                // not.
+                const long a = node_at(m, 0.5, 1).tag, b = node_at(m, 0.5, 2).tag;
+                m.nodes.push_back({900, 0.5, 1.5, 0});
+                for (std::size_t k = 0; k < m.elements.size(); ++k) {
+                  auto& nodes = m.elements[k].nodes;
+                  const auto has = [&](long tag) { return std::count(nodes.begin(), nodes.end(), tag) > 0; };
+                  if (nodes.size() != 3 || !has(a) || !has(b)) continue;
+                  auto half = m.elements[k];
+                  half.tag = 777;
+                  std::replace(nodes.begin(), nodes.end(), a, 900L);
+                  std::replace(half.nodes.begin(), half.nodes.end(), b, 900L);
+                  m.elements.push_back(half);
+                  return;
+                }
+              }),
+       {"(r, z) = (0.5, 1.5) cm hangs on a side", "Coherence"}},
+      {"hanging_node_of_quadratic_cells",
+       spoilt(quadrilateral8,
+              [](auto& m) {
+                // The middle of a side of blood becomes a corner of the wall.
+                auto& nodes = element_of(m, "wall", 3).nodes;
+                std::replace(nodes.begin(), nodes.end(), node_at(m, 1, 3).tag, node_at(m, 1, 2.5).tag);
+              }),
+       {"hanging node", "Coherence"}},
+      {"two_middles",
+       spoilt(triangle6,
+              [](auto& m) {
+                m.nodes.push_back({900, 1.01, 2.5, 0});
+                for (auto& element : m.elements)
+                  if (element.name == "wall")
+                    std::replace(element.nodes.begin(), element.nodes.end(), node_at(m, 1, 2.5).tag, 900L);
+              }),
+       {"two middles", "900", "Coherence"}},
+  };
+}
 
-  std::vector<BadMesh> boundaries() {
-    Stenosis pipe = straight(triangle6), wall = straight(triangle6);
-    pipe.wall_cells = 0;
-    wall.blood_cells = 0;
-    Stenosis fine_pipe = pipe;
-    fine_pipe.blood_cells = 4;
-    return {
-        {"no_outer",
-         spoilt(triangle6, [](auto& m) { remove(m, "outer"); }),
-         {"no physical curve \"outer\"", "outer surface of the wall"}},
-        {"outer_misspelt",
-         spoilt(triangle6, [](auto& m) { rename(m, "outer", "outter"); }),
-         {"no physical curve \"outer\"", "now \"outter\"?"}},
-        {"no_inlet",
-         spoilt(
-             pipe, [](auto& m) { remove(m, "inlet"); }, "2.2"),
-         {"no physical curve \"inlet\"", "lower end of the blood"}},
-        {"no_wall_outlet",
-         spoilt(wall, [](auto& m) { remove(m, "wall_outlet"); }),
-         {"no physical curve \"wall_outlet\"", "upper end of the wall"}},
-        {"open_interface",
-         spoilt(triangle6,
-                [](auto& m) {
-                  // A gap of a thousandth between blood and wall.
-                  const std::vector<GmshModel::Node> before = m.nodes;
-                  for (const auto& node : before) {
-                    if (node.x != 1) continue;
-                    m.nodes.push_back({node.tag + 1000, 1.001, node.y, 0});
-                    for (auto& element : m.elements)
-                      if (element.name.starts_with("wall"))
-                        std::replace(element.nodes.begin(), element.nodes.end(), node.tag, node.tag + 1000);
-                  }
-                }),
-         {"a side of blood", "the interface is open", "(r, z) = (1,", "share their nodes"}},
-        {"outer_has_a_gap",
-         spoilt(triangle6, [](auto& m) { element_of(m, "outer", 2).name = ""; }),
-         {"a side of wall", "(1.5, 2.5) cm", "neither named \"outer\"", "name it"}},
-        {"inlet_covers_the_wall",
-         spoilt(triangle6,
-                [](auto& m) {
-                  element_of(m, "wall_inlet").name = "inlet";
-                  m.elements.push_back({777, 1, "wall_inlet", {}});
-                  m.elements.back().nodes = {node_at(m, 1.5, 0).tag, node_at(m, 1.5, 1).tag};
-                  element_of(m, "outer").name = "";
-                }),
-         {"\"inlet\" covers the wall", "\"wall_inlet\""}},
-        {"wall_inlet_covers_blood",
-         spoilt(triangle6, [](auto& m) { element_of(m, "inlet").name = "wall_inlet"; }),
-         {"\"wall_inlet\" covers blood", "name the blood's end \"inlet\""}},
-        {"blood_reaches_the_outer_surface",
-         spoilt(triangle6,
-                [](auto& m) {
-                  element_of(m, "wall", 2).name = "blood", element_of(m, "wall", 3).name = "blood";
-                }),
-         {"the blood reaches the outer surface", "(1.5, 2.5) cm", "let the wall lie between"}},
-        {"pipe_named_outer",
-         spoilt(pipe,
-                [](auto& m) {
-                  for (int j = 0; j < 4; ++j)
-                    m.elements.push_back(
-                        {700 + j, 1, "outer", {node_at(m, 1, j).tag, node_at(m, 1, j + 1).tag}});
-                }),
-         {"the blood reaches the outer surface", "blood alone", "\"interface\""}},
-        {"wall_reaches_the_axis",
-         spoilt(quadrilateral4,
-                [](auto& m) {
-                  rename(m, "blood", "wall"), rename(m, "inlet", "wall_inlet"),
-                      rename(m, "outlet", "wall_outlet");
-                }),
-         {"the wall reaches the axis", "(r, z) = (0, 0.5) cm", "leave a lumen"}},
-        {"blood_is_an_annulus",
-         spoilt(triangle6,
-                [](auto& m) {
-                  for (auto& node : m.nodes) node.x += 0.1;
-                }),
-         {"the interface is open", "(0.1, 0.5) cm"}},
-        {"pipe_is_an_annulus",
-         spoilt(pipe,
-                [](auto& m) {
-                  for (auto& node : m.nodes) node.x += 0.1;
-                }),
-         {"the blood has no axis", "inlet, interface, outlet, axis"}},
-        {"axis_named_elsewhere",
-         spoilt(triangle6,
-                [](auto& m) {
-                  m.elements.push_back({777, 1, "axis", {node_at(m, 0.5, 0).tag, node_at(m, 0, 0).tag}});
-                  remove(m, "inlet");
-                  m.elements.push_back({778, 1, "inlet", {node_at(m, 0.5, 0).tag, node_at(m, 1, 0).tag}});
-                }),
-         {"\"axis\" leaves r = 0", "x = 0"}},
-        {"inlet_on_the_axis",
-         spoilt(triangle6,
-                [](auto& m) {
-                  m.elements.push_back({777, 1, "inlet", {node_at(m, 0, 0).tag, node_at(m, 0, 1).tag}});
-                }),
-         {"\"inlet\" runs along the axis", "(0, 0.5) cm"}},
-        {"outlet_inside",
-         spoilt(triangle6,
-                [](auto& m) {
-                  m.elements.push_back({777, 1, "outlet", {node_at(m, 0, 2).tag, node_at(m, 0.5, 2).tag}});
-                }),
-         {"\"outlet\" runs inside the blood", "(0.25, 2) cm"}},
-        {"outer_on_the_interface",
-         spoilt(triangle6,
-                [](auto& m) {
-                  m.elements.push_back({777, 1, "outer", {node_at(m, 1, 2).tag, node_at(m, 1, 3).tag}});
-                }),
-         {"\"outer\" runs between blood and wall", "(1, 2.5) cm"}},
-        {"line_is_no_side",
-         spoilt(triangle6,
-                [](auto& m) {
-                  m.elements.push_back({777, 1, "inlet", {node_at(m, 0, 0).tag, node_at(m, 1, 0).tag}});
-                }),
-         {"line 777 of \"inlet\"", "no side of a cell", "together"}},
-        {"two_names",
-         spoilt(triangle6,
-                [](auto& m) {
-                  m.elements.push_back(element_of(m, "outlet")), m.elements.back().name = "wall_outlet";
-                }),
-         {"both \"outlet\" and \"wall_outlet\"", "one of these names"}},
-        {"two_names_of_an_entity",
-         replaced("4.1", "\n1 0 0 0 1 1 0 1 1 0\n", "\n1 0 0 0 1 1 0 2 1 2 0\n"),
-         {"both \"inlet\" and \"outer\""}},
-        {"ends_swapped",
-         spoilt(triangle6,
-                [](auto& m) {
-                  rename(m, "inlet", "x");
-                  rename(m, "outlet", "inlet");
-                  rename(m, "x", "outlet");
-                }),
-         {"the inlet lies above the outlet", "swap"}},
-        {"wall_ends_swapped",
-         spoilt(wall,
-                [](auto& m) {
-                  rename(m, "wall_inlet", "x");
-                  rename(m, "wall_outlet", "wall_inlet");
-                  rename(m, "x", "wall_outlet");
-                }),
-         {"the wall_inlet lies above the wall_outlet", "swap"}},
-        {"inlet_not_plane",
-         spoilt(triangle6, [](auto& m) { node_at(m, 0.5, 0).y = -0.01; }),
-         {"the inlet is no plane", "z = -0.01 to 0 cm", "normal to the axis"}},
-        {"outlet_bulges",
-         spoilt(quadrilateral9, [](auto& m) { node_at(m, 0.75, 4).y = 4.02; }),
-         {"the outlet is no plane", "z = 4 to 4.02 cm"}},
-        {"hole_in_the_blood",
-         spoilt(fine_pipe,
-                [](auto& m) {
-                  // The triangles about a corner inside.
-                  const long middle = node_at(m, 0.5, 2).tag;
-                  std::erase_if(m.elements, [&](const auto& element) {
-                    return element.name == "blood" &&
-                           std::count(element.nodes.begin(), element.nodes.end(), middle) > 0;
+std::vector<BadMesh> boundaries() {
+  Stenosis pipe = straight(triangle6), wall = straight(triangle6);
+  pipe.wall_cells = 0;
+  wall.blood_cells = 0;
+  Stenosis fine_pipe = pipe;
+  fine_pipe.blood_cells = 4;
+  return {
+      {"no_outer",
+       spoilt(triangle6, [](auto& m) { remove(m, "outer"); }),
+       {"no physical curve \"outer\"", "outer surface of the wall"}},
+      {"outer_misspelt",
+       spoilt(triangle6, [](auto& m) { rename(m, "outer", "outter"); }),
+       {"no physical curve \"outer\"", "now \"outter\"?"}},
+      {"no_inlet",
+       spoilt(
+           pipe, [](auto& m) { remove(m, "inlet"); }, "2.2"),
+       {"no physical curve \"inlet\"", "lower end of the blood"}},
+      {"no_wall_outlet",
+       spoilt(wall, [](auto& m) { remove(m, "wall_outlet"); }),
+       {"no physical curve \"wall_outlet\"", "upper end of the wall"}},
+      {"open_interface",
+       spoilt(triangle6,
+              [](auto& m) {
+                // A gap of a thousandth between blood and wall.
+                const std::vector<GmshModel::Node> before = m.nodes;
+                for (const auto& node : before) {
+                  if (node.x != 1) continue;
+                  m.nodes.push_back({node.tag + 1000, 1.001, node.y, 0});
+                  for (auto& element : m.elements)
+                    if (element.name.starts_with("wall"))
+                      std::replace(element.nodes.begin(), element.nodes.end(), node.tag, node.tag + 1000);
+                }
+              }),
+       {"a side of blood", "the interface is open", "(r, z) = (1,", "share their nodes"}},
+      {"outer_has_a_gap",
+       spoilt(triangle6, [](auto& m) { element_of(m, "outer", 2).name = ""; }),
+       {"a side of wall", "(1.5, 2.5) cm", "neither named \"outer\"", "name it"}},
+      {"inlet_covers_the_wall",
+       spoilt(triangle6,
+              [](auto& m) {
+                element_of(m, "wall_inlet").name = "inlet";
+                m.elements.push_back({777, 1, "wall_inlet", {}});
+                m.elements.back().nodes = {node_at(m, 1.5, 0).tag, node_at(m, 1.5, 1).tag};
+                element_of(m, "outer").name = "";
+              }),
+       {"\"inlet\" covers the wall", "\"wall_inlet\""}},
+      {"wall_inlet_covers_blood",
+       spoilt(triangle6, [](auto& m) { element_of(m, "inlet").name = "wall_inlet"; }),
+       {"\"wall_inlet\" covers blood", "name the blood's end \"inlet\""}},
+      {"blood_reaches_the_outer_surface",
+       spoilt(
+           triangle6,
+           [](auto& m) { element_of(m, "wall", 2).name = "blood", element_of(m, "wall", 3).name = "blood"; }),
+       {"the blood reaches the outer surface", "(1.5, 2.5) cm", "let the wall lie between"}},
+      {"pipe_named_outer",
+       spoilt(
+           pipe,
+           [](auto& m) {
+             for (int j = 0; j < 4; ++j)
+               m.elements.push_back({700 + j, 1, "outer", {node_at(m, 1, j).tag, node_at(m, 1, j + 1).tag}});
+           }),
+       {"the blood reaches the outer surface", "blood alone", "\"interface\""}},
+      {"wall_reaches_the_axis",
+       spoilt(quadrilateral4,
+              [](auto& m) {
+                rename(m, "blood", "wall"), rename(m, "inlet", "wall_inlet"),
+                    rename(m, "outlet", "wall_outlet");
+              }),
+       {"the wall reaches the axis", "(r, z) = (0, 0.5) cm", "leave a lumen"}},
+      {"blood_is_an_annulus",
+       spoilt(triangle6,
+              [](auto& m) {
+                for (auto& node : m.nodes) node.x += 0.1;
+              }),
+       {"the interface is open", "(0.1, 0.5) cm"}},
+      {"pipe_is_an_annulus",
+       spoilt(pipe,
+              [](auto& m) {
+                for (auto& node : m.nodes) node.x += 0.1;
+              }),
+       {"the blood has no axis", "inlet, interface, outlet, axis"}},
+      {"axis_named_elsewhere",
+       spoilt(triangle6,
+              [](auto& m) {
+                m.elements.push_back({777, 1, "axis", {node_at(m, 0.5, 0).tag, node_at(m, 0, 0).tag}});
+                remove(m, "inlet");
+                m.elements.push_back({778, 1, "inlet", {node_at(m, 0.5, 0).tag, node_at(m, 1, 0).tag}});
+              }),
+       {"\"axis\" leaves r = 0", "x = 0"}},
+      {"inlet_on_the_axis",
+       spoilt(triangle6,
+              [](auto& m) {
+                m.elements.push_back({777, 1, "inlet", {node_at(m, 0, 0).tag, node_at(m, 0, 1).tag}});
+              }),
+       {"\"inlet\" runs along the axis", "(0, 0.5) cm"}},
+      {"outlet_inside",
+       spoilt(triangle6,
+              [](auto& m) {
+                m.elements.push_back({777, 1, "outlet", {node_at(m, 0, 2).tag, node_at(m, 0.5, 2).tag}});
+              }),
+       {"\"outlet\" runs inside the blood", "(0.25, 2) cm"}},
+      {"outer_on_the_interface",
+       spoilt(triangle6,
+              [](auto& m) {
+                m.elements.push_back({777, 1, "outer", {node_at(m, 1, 2).tag, node_at(m, 1, 3).tag}});
+              }),
+       {"\"outer\" runs between blood and wall", "(1, 2.5) cm"}},
+      {"line_is_no_side",
+       spoilt(triangle6,
+              [](auto& m) {
+                m.elements.push_back({777, 1, "inlet", {node_at(m, 0, 0).tag, node_at(m, 1, 0).tag}});
+              }),
+       {"line 777 of \"inlet\"", "no side of a cell", "together"}},
+      {"two_names",
+       spoilt(triangle6,
+              [](auto& m) {
+                m.elements.push_back(element_of(m, "outlet")), m.elements.back().name = "wall_outlet";
+              }),
+       {"both \"outlet\" and \"wall_outlet\"", "one of these names"}},
+      {"two_names_of_an_entity",
+       replaced("4.1", "\n1 0 0 0 1 1 0 1 1 0\n", "\n1 0 0 0 1 1 0 2 1 2 0\n"),
+       {"both \"inlet\" and \"outer\""}},
+      {"ends_swapped",
+       spoilt(triangle6,
+              [](auto& m) {
+                rename(m, "inlet", "x");
+                rename(m, "outlet", "inlet");
+                rename(m, "x", "outlet");
+              }),
+       {"the inlet lies above the outlet", "swap"}},
+      {"wall_ends_swapped",
+       spoilt(wall,
+              [](auto& m) {
+                rename(m, "wall_inlet", "x");
+                rename(m, "wall_outlet", "wall_inlet");
+                rename(m, "x", "wall_outlet");
+              }),
+       {"the wall_inlet lies above the wall_outlet", "swap"}},
+      {"inlet_not_plane",
+       spoilt(triangle6, [](auto& m) { node_at(m, 0.5, 0).y = -0.01; }),
+       {"the inlet is no plane", "z = -0.01 to 0 cm", "normal to the axis"}},
+      {"outlet_bulges",
+       spoilt(quadrilateral9, [](auto& m) { node_at(m, 0.75, 4).y = 4.02; }),
+       {"the outlet is no plane", "z = 4 to 4.02 cm"}},
+      {"hole_in_the_blood",
+       spoilt(fine_pipe,
+              [](auto& m) {
+                // The triangles about a corner inside.
+                const long middle = node_at(m, 0.5, 2).tag;
+                std::erase_if(m.elements, [&](const auto& element) {
+                  return element.name == "blood" &&
+                         std::count(element.nodes.begin(), element.nodes.end(), middle) > 0;
+                });
+              }),
+       {"the blood is not one piece without holes", "(r, z)"}},
+      {"outer_in_two_stretches",
+       spoilt(wall, [](auto& m) { element_of(m, "outer", 1).name = ""; }),
+       {"outline of the wall passes wall_inlet, outer, interface, outer, wall_outlet, interface",
+        "each once"}},
+      {"touches_itself",
+       spoilt(pipe,
+              [](auto& m) {
+                // Of the four squares about (0.5, 2) two that are opposite to each other go.
+                std::erase_if(m.elements, [&](const auto& e) {
+                  if (e.name != "blood") return false;
+                  double r = 0, z = 0;
+                  for (int i = 0; i < 3; ++i)
+                    for (const auto& node : m.nodes)
+                      if (node.tag == e.nodes[i]) r += node.x / 3, z += node.y / 3;
+                  return (r > 0.5 && z > 1 && z < 2) || (r < 0.5 && z > 2 && z < 3);
+                });
+              }),
+       {"touches itself with a corner at (r, z) = (0.5, 2) cm"}},
+      {"two_pieces",
+       spoilt(wall,
+              [](auto& m) {
+                std::erase_if(m.elements, [&](const auto& e) {
+                  return std::any_of(m.nodes.begin(), m.nodes.end(), [&](const auto& node) {
+                    return node.x > 1 && node.y == 1.5 &&
+                           std::count(e.nodes.begin(), e.nodes.end(), node.tag) > 0;
                   });
-                }),
-         {"the blood is not one piece without holes", "(r, z)"}},
-        {"outer_in_two_stretches",
-         spoilt(wall, [](auto& m) { element_of(m, "outer", 1).name = ""; }),
-         {"outline of the wall passes wall_inlet, outer, interface, outer, wall_outlet, interface",
-          "each once"}},
-        {"touches_itself",
-         spoilt(pipe,
-                [](auto& m) {
-                  // Of the four squares about (0.5, 2) two that are opposite to each other go.
-                  std::erase_if(m.elements, [&](const auto& e) {
-                    if (e.name != "blood") return false;
-                    double r = 0, z = 0;
-                    for (int i = 0; i < 3; ++i)
-                      for (const auto& node : m.nodes)
-                        if (node.tag == e.nodes[i]) r += node.x / 3, z += node.y / 3;
-                    return (r > 0.5 && z > 1 && z < 2) || (r < 0.5 && z > 2 && z < 3);
-                  });
-                }),
-         {"touches itself with a corner at (r, z) = (0.5, 2) cm"}},
-        {"two_pieces",
-         spoilt(wall,
-                [](auto& m) {
-                  std::erase_if(m.elements, [&](const auto& e) {
-                    return std::any_of(m.nodes.begin(), m.nodes.end(), [&](const auto& node) {
-                      return node.x > 1 && node.y == 1.5 &&
-                             std::count(e.nodes.begin(), e.nodes.end(), node.tag) > 0;
-                    });
-                  });
-                }),
-         {"the wall is not one piece", "a second outline passes (r, z)"}},
-    };
-  }
+                });
+              }),
+       {"the wall is not one piece", "a second outline passes (r, z)"}},
+  };
+}
 
 }  // namespace
 

@@ -82,10 +82,12 @@ std::string new_sections(const GmshModel& model, const std::map<Group, int>& gro
     least = std::min_element(model.nodes.begin(), model.nodes.end(), by_tag)->tag;
     greatest = std::max_element(model.nodes.begin(), model.nodes.end(), by_tag)->tag;
   }
-  text += fmt::format("$Nodes\n1 {0} {1} {2}\n2 102 0 {0}\n", model.nodes.size(), least, greatest);
+  text += fmt::format("$Nodes\n1 {0} {1} {2}\n2 102 {3} {0}\n", model.nodes.size(), least, greatest,
+                      model.parametric ? 1 : 0);
   for (const auto& node : model.nodes) text += fmt::format("{}\n", node.tag);
   for (const auto& node : model.nodes)
-    text += fmt::format("{:.10g} {:.10g} {:.10g}\n", node.x, node.y, node.z);
+    text += fmt::format("{:.10g} {:.10g} {:.10g}{}\n", node.x, node.y, node.z,
+                        model.parametric ? " 0.1 1e22" : "");
   text += fmt::format("$EndNodes\n$Elements\n{} {} 1 {}\n", by_type.size(), model.elements.size(),
                       model.elements.size());
   for (const auto& [key, elements] : by_type) {

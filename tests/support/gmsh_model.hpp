@@ -21,6 +21,7 @@ struct GmshModel {
   std::vector<Node> nodes;
   std::vector<Element> elements;
   std::string comment;
+  bool parametric = false;  ///< nodes of format 4.1 carry two parameters of their surface
 
   /// The file in format "2.2" or "4.1".
   std::string text(const std::string& version) const;

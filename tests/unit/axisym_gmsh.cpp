@@ -216,6 +216,7 @@ TEST(GmshMesh, LooksPastWhatItDoesNotNeed) {
   model.nodes.push_back({5, 1, 2, 3});                      // of no cell
   model.elements.push_back({4, 15, "corner", {5}});         // a point
   model.elements.push_back({5, 1, "centre line", {5, 5}});  // a curve of another purpose
+  model.parametric = true;
   std::string text = model.text("4.1") + "$NodeData\n1\n\"p\"\n$EndNodeData\n";
   for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += 2)
     text.replace(at, 1, "\r\n");
