@@ -17,8 +17,9 @@ struct BadMesh {
 /// Files that cannot be read, and meshes that can be read but not computed with.
 const std::vector<BadMesh>& bad_meshes();
 
-inline void PrintTo(const BadMesh& mesh, std::ostream* stream) {
-  *stream << mesh.name;
+/// GoogleTest would print the bytes otherwise.
+inline std::ostream& operator<<(std::ostream& stream, const BadMesh& mesh) {
+  return stream << mesh.name;
 }
 
 }  // namespace tunica::test_support

@@ -54,8 +54,8 @@ struct Kind {
   const char* name;
   double order;  ///< of the volume: a parabola per side, integrated like Simpson's rule, or a chord
 };
-void PrintTo(const Kind& kind, std::ostream* stream) {
-  *stream << kind.name;
+std::ostream& operator<<(std::ostream& stream, const Kind& kind) {
+  return stream << kind.name;
 }
 
 class GmshCellsOf : public testing::TestWithParam<Kind> {};
