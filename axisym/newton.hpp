@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -65,7 +66,9 @@ class Newton {
   void correct(std::vector<double>& correction) const;
   void add(std::span<double> y, double factor, const std::vector<double>& correction) const;
   void measure(std::span<const double> y);
-  double norm(const std::vector<double>& correction) const;
+  using Norms = std::array<double, 3>;  ///< greatest scaled entry of displacement, velocity and pressure
+  Norms norms(const std::vector<double>& correction) const;
+  static double norm(const Norms& norms);
   double inner(const std::vector<double>& a, const std::vector<double>& b) const;
   Outcome iterate(const Stage& stage, std::span<double> y, const NewtonOptions& options,
                   NewtonReport& report);
