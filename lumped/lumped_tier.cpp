@@ -14,6 +14,7 @@
 #include "lumped/network.hpp"
 #include "lumped/observer.hpp"
 #include "lumped/recruitment_log.hpp"
+#include "lumped/steady_state.hpp"
 #include "lumped/wall_fields.hpp"
 
 namespace tunica::lumped {
@@ -184,12 +185,16 @@ class LumpedRun final : public TierRun {
     std::vector<std::vector<double>> derivatives;
     for (int k = 0; k < network_.parameters(); ++k) derivatives.push_back(network_.rest_derivative(k));
     IntegratorStatistics statistics;
-    if (scene_.text("time.start") == "periodic") {
-      LimitCycle cycle = find_limit_cycle(s, state, network_.inlet().period, carried, tolerance_);
-      state = std::move(cycle.state);
-      derivatives = std::move(cycle.derivatives);
-      statistics = cycle.statistics;
-    }
+    const auto begin_on = [&](auto start) {
+      state = std::move(start.state);
+      derivatives = std::move(start.derivatives);
+      statistics = start.statistics;
+    };
+    const double period = network_.inlet().period;
+    if (scene_.text("time.start") == "static")
+      begin_on(find_steady_state(s, state, 0, period, carried));
+    else if (scene_.text("time.start") == "periodic")
+      begin_on(find_limit_cycle(s, state, period, carried, tolerance_));
 
     Integrator integrator(s, carried, tolerance_);
     const double end = stops_.back().time;
