@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "axisym/axisym_tier.hpp"
 #include "core/error.hpp"
 #include "lumped/lumped_tier.hpp"
 
@@ -24,6 +25,7 @@ std::string names(const TierList& tiers) {
 TierList available_tiers() {
   TierList tiers;
   tiers.push_back(std::make_unique<lumped::LumpedTier>());
+  tiers.push_back(std::make_unique<axisym::AxisymTier>());
   return tiers;
 }
 

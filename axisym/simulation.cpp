@@ -26,10 +26,13 @@ Simulation::Simulation(const Problem& problem, const SimulationOptions& options)
   newton_.set_sizes({small * s.displacement, small * s.velocity, small * s.pressure});
 }
 
-void Simulation::start(double time, std::vector<double> state) {
-  assembler_.complete({time, 0, {}}, state);
-  std::vector<double> rates(state.size(), 0.0);
+void Simulation::start(double time, std::vector<double> state, std::vector<double> rates) {
+  if (rates.empty()) {
+    assembler_.complete({time, 0, {}}, state);
+    rates.assign(state.size(), 0.0);
+  }
   scheme_.start(time, std::move(state), std::move(rates));
+  control_.restart();
   step_begin_ = time;
 }
 

@@ -29,8 +29,9 @@ class Simulation {
  public:
   Simulation(const Problem& problem, const SimulationOptions& options);
 
-  /// Begins at `time` from a state whose rates are zero.
-  void start(double time, std::vector<double> state);
+  /// Begins at `time` from a state and its rates; without rates they are zero, and the state is made to agree
+  /// with that.
+  void start(double time, std::vector<double> state, std::vector<double> rates = {});
 
   /// Takes one step that does not go beyond `stop`; steps whose error is too large and steps that are not
   /// solved are repeated with smaller ones. Throws SolverFailure at the smallest step: when, where and why.
@@ -39,6 +40,7 @@ class Simulation {
   double time() const { return scheme_.time(); }
   double step_begin() const { return step_begin_; }  ///< of the last step
   const std::vector<double>& state() const { return scheme_.value(); }
+  const std::vector<double>& rates() const { return scheme_.rate(); }
   /// State within the last step.
   void interpolate(double time, std::span<double> out) const { scheme_.interpolate(time, out); }
   /// True right after a step that ends at a milestone: the place for a checkpoint.
@@ -46,6 +48,8 @@ class Simulation {
 
   const Assembler& assembler() const { return assembler_; }
   const Layout& layout() const { return assembler_.layout(); }
+  Newton& newton() { return newton_; }
+  double factor_entries() const { return newton_.factor_entries(); }
   const NewtonCounts& newton_counts() const { return newton_.counts(); }
   const time::StepControl::Counts& step_counts() const { return control_.counts(); }
   double least_jacobian() const { return least_jacobian_; }  ///< of all accepted states

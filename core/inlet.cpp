@@ -85,9 +85,8 @@ double Inlet::shape_at(double time) const {
   return time < ramp ? 0.5 * (1 - std::cos(std::numbers::pi * time / ramp)) * value : value;
 }
 
-std::vector<double> Inlet::breakpoints(double end) const {
+std::vector<double> Inlet::jumps(double end) const {
   std::vector<double> times;
-  if (ramp > 0 && ramp < end) times.push_back(ramp);
   for (const double within : shape->jumps())
     for (int beat = 0; beat * period + within < end; ++beat)
       if (const double time = beat * period + within; time > 0) times.push_back(time);

@@ -27,8 +27,8 @@ struct Inlet {
 
   /// shape(t), times (1 - cos(pi t / ramp))/2 while t < ramp.
   double shape_at(double time) const;
-  /// Times from 0 to `end` at which shape_at or its slope jumps, 0 excluded.
-  std::vector<double> breakpoints(double end) const;
+  /// Times between 0 and `end` at which shape_at jumps, ascending.
+  std::vector<double> jumps(double end) const;
   /// Largest magnitude of the shape within a period, ramp aside, to within a few per cent.
   double greatest_shape() const;
 };

@@ -39,6 +39,10 @@ StoredRun::StoredRun(const Tier& tier, const Scene& scene, fs::path folder, bool
   run_ = tier.prepare(scene);
 }
 
+std::vector<std::string> StoredRun::warnings() const {
+  return run_ ? run_->warnings() : std::vector<std::string>{};
+}
+
 Result StoredRun::execute(RunControl control, const std::function<void(const std::string&)>& not_saved) {
   make_result_folder(folder_);
   if (!checkpoint_) remove_checkpoint(folder_);

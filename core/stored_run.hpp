@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "core/tier.hpp"
 
@@ -23,6 +25,8 @@ class StoredRun {
   bool is_complete() const { return !run_; }
   bool goes_on() const { return checkpoint_.has_value(); }
   const std::filesystem::path& folder() const { return folder_; }
+  /// What a user should know before the run; none when it is complete.
+  std::vector<std::string> warnings() const;
 
   /// Makes the folder, removes the checkpoint of an earlier run and computes, once. `control` tells how to
   /// watch the run; its `save` and `resume` are set here. A checkpoint that cannot be written is told to

@@ -39,6 +39,8 @@ class TierRun {
   virtual ~TierRun() = default;
   /// Computes, once. A solver that gives up returns what it has with record.failure set.
   virtual Result execute(const RunControl& control) = 0;
+  /// What a user should know before the run, one line each: that the state to be computed is unstable.
+  virtual std::vector<std::string> warnings() const { return {}; }
 };
 
 /// One of the models that can answer a scene. A tier knows core only, never another tier.

@@ -39,6 +39,8 @@ int run_command(const RunArguments& arguments) {
     if (!arguments.quiet) fmt::print("{}: this run is complete\n", folder.string());
     return done;
   }
+  if (!arguments.quiet)
+    for (const auto& warning : run.warnings()) spdlog::warn(warning);
   computation_begins();
   Result result;
   {

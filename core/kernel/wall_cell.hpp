@@ -156,7 +156,7 @@ void add_wall_tangent(const WallParameters& parameters, const std::vector<WallPo
     const auto& at = points[q];
     const auto seeded = seed_gradient<Frame, g>(h[q], 0);
     const Tensor<D> stress =
-        mixed ? physics::mixed_wall_stress(*parameters.law, seeded, at.axes, D(pressure->at(at.pressure)))
+        mixed ? physics::mixed_wall_stress(*parameters.law, seeded, at.axes, pressure->at(at.pressure))
               : wall::piola(*parameters.law, seeded, at.axes);
     const auto derivative = [&](int out, int in) {
       if (out < n) return out == in ? mass : 0.0;
@@ -165,7 +165,8 @@ void add_wall_tangent(const WallParameters& parameters, const std::vector<WallPo
     contract(at.weight, slots, slots, derivative, at.displacement, at.displacement, tangent.momentum);
     if (!mixed) continue;
     const Kinematics<double> k(h[q]);
-    const double stiffness = wall::volumetric(*parameters.law).slope(seed(k.volume_change)).derivative[0];
+    const double stiffness = (1 - physics::pointwise_volumetric_share) *
+                             wall::volumetric(*parameters.law).slope(seed(k.volume_change)).derivative[0];
     NodalVector<Frame, Width> minors;
     test_vector(1.0, Vector<double>{}, k.deformation_cofactor, at.displacement, minors);
     for (int i = 0; i < parameters.pressure_terms; ++i) {

@@ -45,6 +45,8 @@ struct Result {
                                            ///< last beat, then its sensitivities; none without fibres
   observables::Table compartments;         ///< compartments.csv: pressure, radius and flow along the artery;
                                            ///< none for a single compartment
+  observables::Table along;                ///< along.csv: the inner surface of the wall from the inlet to the
+                                           ///< outlet; none from tiers that do not resolve it
   std::vector<observables::FieldSeries> fields;  ///< fields/NAME.xdmf, for viewers; none when not asked for
   RunRecord record;
 };

@@ -17,7 +17,8 @@ constexpr std::pair<const char*, Table Result::*> tables[] = {
     {"sensitivities", &Result::sensitivities},
     {"event_sensitivities", &Result::event_sensitivities},
     {"recruited_time", &Result::recruited_time},
-    {"compartments", &Result::compartments}};
+    {"compartments", &Result::compartments},
+    {"along", &Result::along}};
 
 constexpr std::pair<const char*, long RunRecord::*> counts[] = {
     {"unknowns", &RunRecord::unknowns},

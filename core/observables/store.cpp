@@ -31,7 +31,8 @@ constexpr TableFile table_files[] = {{"observables.csv", &Result::observables},
                                      {"sensitivities.csv", &Result::sensitivities},
                                      {"event_sensitivities.csv", &Result::event_sensitivities},
                                      {"recruited_time.csv", &Result::recruited_time},
-                                     {"compartments.csv", &Result::compartments}};
+                                     {"compartments.csv", &Result::compartments},
+                                     {"along.csv", &Result::along}};
 constexpr const char* record_file = "record.json";
 constexpr const char* fields_folder = "fields";
 constexpr const char* fields_extension = ".xdmf";

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "axisym/resolution.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "axisym/gmsh.hpp"
+#include "axisym/structured.hpp"
+#include "core/error.hpp"
+
+namespace tunica::axisym {
+
+namespace {
+
+/// Cells for a tolerance when an error of 1 % takes `at_one_percent`, and errors fall with the given order.
+int cells(double at_one_percent, double order, double tolerance) {
+  return static_cast<int>(std::ceil(at_one_percent * std::pow(0.01 / tolerance, 1 / order) - 1e-9));
+}
+
+}  // namespace
+
+Resolution resolution(const Scene& scene) {
+  const double tolerance = scene.number("accuracy.tolerance");
+  Resolution r;
+  // A linear element of the same error is the square of a quadratic one's size.
+  const bool quadratic = scene.text("mesh.element") == "quadratic";
+  const double order = quadratic ? 3.4 : 2;
+  const double finer = quadratic ? 1 : 3;
+  r.wall_cells = cells(2 * finer, order, tolerance);
+  r.blood_cells = cells(2 * finer, order, tolerance);
+  // Half of the cells lie in the layers where the clamped ends bend the wall, whose number does not depend on
+  // the length; the rest follow the artery.
+  r.axial_cells = 2 * cells(8 * finer, order, tolerance);
+  const auto take = [&](const char* key, int& count) {
+    if (scene.has(key)) count = static_cast<int>(scene.integer(key));
+  };
+  take("mesh.wall_cells", r.wall_cells);
+  take("mesh.blood_cells", r.blood_cells);
+  take("mesh.axial_cells", r.axial_cells);
+  r.wall_cells = std::max(r.wall_cells, static_cast<int>(scene.count("wall.layers")));
+  r.local_tolerance = 0.03 * tolerance;
+  r.newton_tolerance = 0.01 * r.local_tolerance;
+  return r;
+}
+
+Mesh mesh_of(const Scene& scene, const Resolution& resolution, bool with_blood) {
+  if (scene.text("geometry.kind") == "mesh") {
+    const auto file = scene.folder() / scene.text("geometry.file");
+    Mesh mesh = read_gmsh(file);
+    check(mesh, {scene.number("geometry.radius"), file.string()});
+    return mesh;
+  }
+  TubeSpec spec;
+  spec.radius = scene.number("geometry.radius");
+  const double thickness = scene.number("geometry.thickness");
+  const std::size_t layers = scene.count("wall.layers");
+  for (std::size_t i = 0; i < layers; ++i)
+    spec.layers.push_back(thickness * scene.number(fmt::format("wall.layers[{}].fraction", i)));
+  if (layers == 0) spec.layers.push_back(thickness);
+  spec.length = scene.number("geometry.length");
+  spec.blood_cells = resolution.blood_cells;
+  spec.wall_cells = resolution.wall_cells;
+  spec.axial_cells = resolution.axial_cells;
+  spec.blood = with_blood;
+  if (scene.text("geometry.ends") == "clamped")
+    spec.end_grading = bending_layer_grading(spec.radius, thickness, spec.length);
+  const bool triangles = scene.text("mesh.element") == "bubble" || scene.text("mesh.cell") == "triangle";
+  spec.shape = triangles ? CellShape::triangle : CellShape::quadrilateral;
+  return structured_tube(spec);
+}
+
+}  // namespace tunica::axisym

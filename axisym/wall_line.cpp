@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "axisym/wall_line.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "axisym/meeting.hpp"
+
+namespace tunica::axisym {
+
+WallLine::WallLine(const WallReader& reader, double height, const std::vector<double>& radii)
+    : reader_(reader) {
+  const Problem& problem = reader.assembler().problem();
+  const Mesh& mesh = problem.mesh;
+  const int per_cell = problem.discretisation.element == Element::quadratic ? 2 : 1;
+  for (const SectionPoint& q : section_rule(mesh, section_at(mesh, height), Part::wall, per_cell)) {
+    auto places = in_innermost_layer(mesh, meeting_places(mesh, q.place));
+    samples_.push_back({q.radius, mesh.cells[places.front().cell].layer, std::move(places)});
+  }
+  for (const double radius : radii) {
+    const auto place = locate(mesh, {radius, height}, Part::wall);
+    if (!place) throw std::logic_error("WallLine: a radius outside the wall");
+    Spot spot{radius, 0, in_innermost_layer(mesh, meeting_places(mesh, *place)), 0, {}};
+    spot.layer = mesh.cells[spot.places.front().cell].layer;
+    choose_samples(spot);
+    spots_.push_back(std::move(spot));
+  }
+}
+
+void WallLine::choose_samples(Spot& spot) const {
+  std::size_t begin = 0, end = samples_.size();
+  while (begin < end && samples_[begin].layer != spot.layer) ++begin;
+  while (end > begin && samples_[end - 1].layer != spot.layer) --end;
+  const std::size_t count = std::min<std::size_t>(3, end - begin);
+  if (count == 0) return;
+  // Samples are sorted by radius: the nearest ones follow each other.
+  spot.first = begin;
+  while (spot.first + count < end &&
+         samples_[spot.first + count].radius - spot.radius < spot.radius - samples_[spot.first].radius)
+    ++spot.first;
+  double size = 0;
+  for (std::size_t i = spot.first; i < spot.first + count; ++i) {
+    double weight = 1;
+    for (std::size_t j = spot.first; j < spot.first + count; ++j)
+      if (j != i) weight *= (spot.radius - samples_[j].radius) / (samples_[i].radius - samples_[j].radius);
+    spot.weights.push_back(weight);
+    size += std::abs(weight);
+  }
+  // At the end of equal cells it is 3.5 at most.
+  constexpr double greatest_size = 6;
+  if (!(size < greatest_size)) spot.weights.clear();
+}
+
+std::vector<WallState> WallLine::states(std::span<const double> y) const {
+  std::vector<WallStrain> sampled;
+  sampled.reserve(samples_.size());
+  for (const Sample& sample : samples_) sampled.push_back(reader_.mean(sample.places, y));
+  std::vector<WallState> states;
+  states.reserve(spots_.size());
+  for (const Spot& spot : spots_) {
+    WallStrain strain = reader_.mean(spot.places, y);
+    if (!spot.weights.empty()) {
+      WallStrain recovered;
+      for (std::size_t k = 0; k < spot.weights.size(); ++k)
+        recovered.add(spot.weights[k], sampled[spot.first + k]);
+      recovered.displacement = strain.displacement;
+      recovered.gradient(1, 1) = strain.gradient(1, 1);
+      strain = recovered;
+    }
+    states.push_back({spot.radius, spot.layer, strain, reader_.axes(spot.places.front())});
+  }
+  return states;
+}
+
+}  // namespace tunica::axisym

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "axisym/wall_state.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tunica::axisym {
+
+namespace {
+
+template <class Entry>
+kernel::NodalVector<Frame, cell_width> gather(const Problem& problem, int cell, std::span<const double> y,
+                                              const Entry& entry) {
+  const int count = counts(problem.mesh.shape, problem.discretisation.element).displacement;
+  kernel::NodalVector<Frame, cell_width> nodal;
+  for (int c = 0; c < 2; ++c)
+    for (int k = 0; k < count; ++k) nodal.value[c][k] = y[entry(problem.mesh.cells[cell].nodes[k], c)];
+  return nodal;
+}
+
+kernel::NodalVector<Frame, cell_width> gather_displacement(const Problem& problem, const Layout& layout,
+                                                           int cell, std::span<const double> y) {
+  return gather(problem, cell, y, [&](int node, int c) { return layout.displacement(node, c); });
+}
+
+}  // namespace
+
+kernel::NodalVector<Frame, cell_width> nodal_displacement(const Assembler& assembler, int cell,
+                                                          std::span<const double> y) {
+  return gather_displacement(assembler.problem(), assembler.layout(), cell, y);
+}
+
+kernel::NodalVector<Frame, cell_width> nodal_velocity(const Assembler& assembler, int cell,
+                                                      std::span<const double> y) {
+  const Layout& layout = assembler.layout();
+  return gather(assembler.problem(), cell, y, [&](int node, int c) { return layout.velocity(node, c); });
+}
+
+void WallStrain::add(double factor, const WallStrain& other) {
+  for (int i = 0; i < 3; ++i) displacement[i] += factor * other.displacement[i];
+  gradient = gradient + factor * other.gradient;
+  pressure += factor * other.pressure;
+}
+
+WallCell::WallCell(const Problem& problem, const Layout& layout, const WallTable& table,
+                   std::span<const double> y)
+    : problem_(problem), table_(table), displacement_(gather_displacement(problem, layout, table.cell, y)) {
+  if (table.pressure_terms == 0) return;
+  const kernel::WallParameters parameters{&problem.laws[table.layer], 0, 0, table.pressure_terms};
+  kernel::WallNodes<Frame, cell_width> nodes;
+  nodes.displacement = displacement_;
+  pressure_.emplace(parameters, table.points, kernel::gradients(table.points, nodes));
+}
+
+WallStrain WallCell::at(const element::Local& local) const {
+  const auto shapes = lifted_at(problem_.mesh, problem_.discretisation.element, table_.cell, local);
+  WallStrain strain{kernel::field_value(shapes, displacement_), kernel::field_gradient(shapes, displacement_),
+                    0};
+  if (pressure_) {
+    const double basis[kernel::max_pressure_terms<Frame>] = {1, local[0], local[1]};
+    strain.pressure = pressure_->at(basis);
+  }
+  return strain;
+}
+
+WallReader::WallReader(const Assembler& assembler) : assembler_(assembler) {
+  tables_.assign(assembler.problem().mesh.cells.size(), nullptr);
+  mixed_.assign(assembler.problem().laws.size(), false);
+  for (const WallTable& table : assembler.tables().wall) {
+    tables_[table.cell] = &table;
+    mixed_[table.layer] = table.pressure_terms > 0;
+  }
+}
+
+WallCell WallReader::cell(int cell, std::span<const double> y) const {
+  return {assembler_.problem(), assembler_.layout(), *tables_[cell], y};
+}
+
+WallStrain WallReader::mean(std::span<const Place> places, std::span<const double> y) const {
+  WallStrain sum;
+  for (const Place& place : places)
+    sum.add(1.0 / static_cast<double>(places.size()), cell(place.cell, y).at(place.local));
+  return sum;
+}
+
+Tensor<double> WallReader::cauchy(int layer, const WallStrain& strain, const wall::MaterialAxes& axes) const {
+  const wall::Law<double>& law = assembler_.problem().laws[layer];
+  return cauchy_stress(mixed_[layer] ? physics::mixed_wall_stress(law, strain.gradient, axes, strain.pressure)
+                                     : wall::piola(law, strain.gradient, axes),
+                       strain.gradient);
+}
+
+wall::MaterialAxes WallReader::axes(const Place& place) const {
+  return tables_[place.cell]->points.front().axes;
+}
+
+std::vector<int> distinct_families(const wall::Law<double>& law) {
+  const auto& families = wall::families(law);
+  std::vector<int> distinct;
+  for (int f = 0; f < static_cast<int>(families.size()); ++f) {
+    const bool known = std::any_of(distinct.begin(), distinct.end(), [&](int earlier) {
+      return std::abs(families[earlier].angle) == std::abs(families[f].angle) &&
+             families[earlier].activation_squared == families[f].activation_squared;
+    });
+    if (!known) distinct.push_back(f);
+  }
+  return distinct;
+}
+
+}  // namespace tunica::axisym
