@@ -28,8 +28,10 @@ void set_ends(const Scene& scene, Problem& problem) {
   for (const Boundary boundary :
        {Boundary::inlet, Boundary::outlet, Boundary::wall_inlet, Boundary::wall_outlet})
     problem.on(boundary).displacement = {clamped, true};
-  // A section that is free to widen has no wall to hold a profile, but its flow stays along the axis.
-  if (!clamped) problem.on(Boundary::inlet).velocity[0] = problem.on(Boundary::outlet).velocity[0] = true;
+  // Blood comes in along the axis (paper, 2.3). Where it may also come in from the side, its momentum makes
+  // the pressure condition unstable. A section that is free to widen stands for one within a longer artery.
+  problem.on(Boundary::inlet).velocity[0] = true;
+  if (!clamped) problem.on(Boundary::outlet).velocity[0] = true;
 }
 
 void set_inlet(const Scene& scene, Setup& setup) {
