@@ -135,10 +135,10 @@ void Fields::add_wall() {
       const int next = static_cast<int>(wall_points_.size());
       const auto [entry, is_new] = index.try_emplace({nodes[k], layer}, next);
       if (is_new) {
-        wall_points_.push_back({nodes[k], layer, {cell, element::node_position(mesh.shape, k)}});
+        wall_points_.push_back({nodes[k], layer, {}});
         wall_.mesh.points.push_back({mesh.points[nodes[k]][0], 0, mesh.points[nodes[k]][1]});
       }
-      ++wall_points_[entry->second].cells;
+      wall_points_[entry->second].places.push_back({cell, element::node_position(mesh.shape, k)});
       points.push_back(entry->second);
     }
     show(cell, points, wall_);
@@ -173,13 +173,13 @@ std::vector<std::vector<float>> Fields::wall_values(std::span<const double> y) c
     const WallCell cell = reader_.cell(shown.cell, y);
     for (int k = 0; k < shown_nodes_; ++k) {
       const int point = shown.points[k];
-      strains[point].add(1.0 / wall_points_[point].cells,
+      strains[point].add(1.0 / static_cast<double>(wall_points_[point].places.size()),
                          cell.at(element::node_position(problem.mesh.shape, k)));
     }
   }
   std::vector<std::vector<float>> values(wall_.point_fields.size());
   for (std::size_t i = 0; i < wall_points_.size(); ++i) {
-    const auto axes = reader_.axes(wall_points_[i].place);
+    const auto axes = reader_.axes(wall_points_[i].places);
     const Tensor<double> cauchy = reader_.cauchy(wall_points_[i].layer, strains[i], axes);
     std::size_t field = 0;
     put(values[field++], strains[i].displacement);

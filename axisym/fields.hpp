@@ -36,8 +36,7 @@ class Fields {
   struct WallPoint {
     int node;
     int layer;
-    Place place;    ///< in one of the cells that meet there
-    int cells = 0;  ///< how many do
+    std::vector<Place> places;  ///< in the layer's cells that meet there
   };
   /// A cell of the wall and its points, by its nodes.
   struct WallCellPoints {

@@ -117,7 +117,7 @@ std::vector<InterfaceState> InterfaceLine::states(double time, std::span<const d
     if (node.wall.empty()) continue;
     const int layer = problem.mesh.cells[node.wall.front().cell].layer;
     state.von_mises =
-        von_mises_stress(reader_.cauchy(layer, reader_.mean(node.wall, y), reader_.axes(node.wall.front())));
+        von_mises_stress(reader_.cauchy(layer, reader_.mean(node.wall, y), reader_.axes(node.wall)));
   }
   return states;
 }

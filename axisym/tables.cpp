@@ -108,7 +108,6 @@ WallTable wall_table(const Problem& problem, int index) {
     point.pressure[0] = 1;
     point.pressure[1] = rule.points[q][0];
     point.pressure[2] = rule.points[q][1];
-    point.axes = {{0, 1, 0}, {0, 0, 1}};
     table.points.push_back(point);
   }
   return table;
@@ -175,6 +174,11 @@ Tables tabulate(const Problem& problem) {
     else
       tables.wall.push_back(wall_table(problem, index));
   }
+  tables.axes = WallAxes(problem, tables.wall);
+  const auto rule = element::cell_rule(problem.mesh.shape, geometry_basis(problem.discretisation.element));
+  for (WallTable& table : tables.wall)
+    for (std::size_t q = 0; q < table.points.size(); ++q)
+      table.points[q].axes = tables.axes.at(table.cell, rule.points[q]);
   for (const Edge& edge : problem.mesh.edges)
     if (edge.boundary != Boundary::axis) tables.sides.push_back(side_table(problem, edge));
   return tables;

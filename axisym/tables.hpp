@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "axisym/problem.hpp"
+#include "axisym/wall_axes.hpp"
 #include "core/kernel/blood_cell.hpp"
 #include "core/kernel/surface_side.hpp"
 #include "core/kernel/wall_cell.hpp"
@@ -48,13 +49,13 @@ struct SideTable {
   std::vector<SidePoint> points;
 };
 
-/// Shape functions of all cells and boundary sides at their quadrature points. The wall's axial direction
-/// follows the wall (see wall_axes).
-/// Throws InvalidInput for a cell whose map is not one to one.
+/// Shape functions of all cells and boundary sides at their quadrature points, and the directions of the
+/// wall, which refer to the problem's mesh. Throws InvalidInput for a cell whose map is not one to one.
 struct Tables {
   std::vector<BloodTable> blood;
   std::vector<WallTable> wall;
   std::vector<SideTable> sides;
+  WallAxes axes;
 };
 Tables tabulate(const Problem& problem);
 

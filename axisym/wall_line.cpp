@@ -67,7 +67,7 @@ std::vector<WallState> WallLine::states(std::span<const double> y) const {
       recovered.gradient(1, 1) = strain.gradient(1, 1);
       strain = recovered;
     }
-    states.push_back({spot.radius, spot.layer, strain, reader_.axes(spot.places.front())});
+    states.push_back({spot.radius, spot.layer, strain, reader_.axes(spot.places)});
   }
   return states;
 }

@@ -90,8 +90,14 @@ Tensor<double> WallReader::cauchy(int layer, const WallStrain& strain, const wal
                        strain.gradient);
 }
 
-wall::MaterialAxes WallReader::axes(const Place& place) const {
-  return tables_[place.cell]->points.front().axes;
+wall::MaterialAxes WallReader::axes(std::span<const Place> places) const {
+  Vector<double> sum{};
+  for (const Place& place : places) {
+    const auto axes = assembler_.tables().axes.at(place.cell, place.local);
+    for (int i = 0; i < 3; ++i) sum[i] += axes.axial[i];
+  }
+  const double length = std::hypot(sum[0], sum[2]);
+  return {{0, 1, 0}, {sum[0] / length, 0, sum[2] / length}};
 }
 
 std::vector<int> distinct_families(const wall::Law<double>& law) {

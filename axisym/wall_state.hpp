@@ -48,8 +48,8 @@ class WallReader {
   /// Mean over the places: those where cells of a layer meet.
   WallStrain mean(std::span<const Place> places, std::span<const double> y) const;
   Tensor<double> cauchy(int layer, const WallStrain& strain, const wall::MaterialAxes& axes) const;
-  /// Directions of the wall in the unloaded vessel.
-  wall::MaterialAxes axes(const Place& place) const;
+  /// Mean directions of the wall over the places, in the unloaded vessel.
+  wall::MaterialAxes axes(std::span<const Place> places) const;
 
  private:
   const Assembler& assembler_;
