@@ -123,7 +123,7 @@ RippleTable by_law() {
       const Model model = wall(law, tether);
       double longest = 0;
       const auto long_waves = ranges(model, [&](const BaseState& base) {
-        const auto unstable = unstable_ripples(base, {from_h});
+        auto unstable = unstable_ripples(base, {from_h});
         for (const Ripple& ripple : unstable) longest = std::max(longest, ripple.length);
         return unstable;
       });

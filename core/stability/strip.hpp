@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <complex>
 #include <vector>
 
@@ -56,7 +57,7 @@ class Strip {
  private:
   /// K = K0 + k K1 + k^2 K2 of a cell or a surface.
   struct Polynomial {
-    Eigen::MatrixXd terms[3];
+    std::array<Eigen::MatrixXd, 3> terms;
     Eigen::MatrixXd at(double k) const { return terms[0] + k * (terms[1] + k * terms[2]); }
   };
   Eigen::Index unknowns() const { return static_cast<Eigen::Index>(components_.size()); }

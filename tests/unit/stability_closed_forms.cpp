@@ -14,7 +14,6 @@ namespace {
 
 using stability::BaseState;
 using stability::HalfSpace;
-using stability::Resolution;
 using stability::Strip;
 using test_support::elastic_wall;
 using test_support::joined;
@@ -123,7 +122,7 @@ TEST(StabilityClosedForm, DeadPressureOfTwiceTheShearModulusRipplesTheSurface) {
     const auto model = model_with(rubber("1e12", reading));
     const double stretch = stability::lumen_stretch_at(*model, pressure);
     const BaseState base = stability::base_state(*model, stretch, {2, 1});
-    return (*HalfSpace(base.outer).stiffness(along))(Eigen::all, Eigen::all);
+    return *HalfSpace(base.outer).stiffness(along);
   };
   const auto least_of_pair = [&](const char* reading, double pressure) {
     const Eigen::Matrix3d s = stiffness(reading, pressure);

@@ -18,7 +18,6 @@ namespace {
 using stability::BaseState;
 using stability::Scan;
 using stability::Strip;
-using test_support::joined;
 using test_support::mmhg;
 using test_support::model_with;
 using test_support::scene_with;

@@ -60,25 +60,31 @@ struct Amplitudes {
 class RippledWall {
  public:
   RippledWall(const radial::RingModel& model, const BaseState& base, double wave_number, int around)
-      : model_(model), base_(base), wave_number_(wave_number), around_(around) {}
+      : model_(model), base_(base), wave_number_(wave_number), around_(around) {
+    for (const auto& cell : base.cells)
+      for (const auto& point : gauss_legendre(10)) {
+        const double half = 0.5 * (cell.upper - cell.lower);
+        places_.push_back(cell.lower + half * (1 + point.position));
+        weights_.push_back(point.weight * half * model.ring().thickness);
+        layers_.push_back(cell.layer);
+      }
+    places_.insert(places_.end(), {0.0, 1.0});
+    states_ = model.respond(base.lumen_stretch, places_, false).states;
+  }
 
   double work(const Amplitudes& ripple, double size, const Amplitudes& test) const {
-    const radial::Ring<double>& ring = model_.ring();
-    constexpr int phases = 12;  // exact for products of up to eleven waves
+    constexpr int phases = 8;  // exact for products of up to seven waves
     double sum = 0;
     for (int phase = 0; phase < phases; ++phase) {
       const double z = 2 * std::numbers::pi * phase / (phases * wave_number_);
-      for (const auto& cell : base_.cells)
-        for (const auto& point : gauss_legendre(14)) {
-          const double half = 0.5 * (cell.upper - cell.lower);
-          const double radius = ring.radius(cell.lower + half * (1 + point.position));
-          const auto [displacement, gradient] = field(radius, z, &ripple, size);
-          const auto stress = wall::piola(ring.layers[cell.layer].law, gradient, axes());
-          sum += point.weight * half * ring.thickness * radius *
-                 contract(stress, field(radius, z, &test, 1, false).second);
-        }
-      sum += surface_work(ring.radius(0.0), -1, z, ripple, size, test);
-      sum += surface_work(ring.radius(1.0), 1, z, ripple, size, test);
+      for (std::size_t q = 0; q < weights_.size(); ++q) {
+        const auto gradient = field(q, z, ripple, size, true).second;
+        const auto stress = wall::piola(model_.ring().layers[layers_[q]].law, gradient, axes());
+        sum += weights_[q] * model_.ring().radius(places_[q]) *
+               contract(stress, field(q, z, test, 1, false).second);
+      }
+      sum += surface_work(weights_.size(), -1, z, ripple, size, test);
+      sum += surface_work(weights_.size() + 1, 1, z, ripple, size, test);
     }
     return sum / phases;
   }
@@ -88,25 +94,22 @@ class RippledWall {
 
   static wall::MaterialAxes axes() { return {{-std::sin(angle), std::cos(angle), 0}, {0, 0, 1}}; }
 
-  /// Displacement and gradient, Cartesian, of the ring and a ripple or of the ripple alone.
-  std::pair<Vector<double>, Tensor<double>> field(double radius, double z, const Amplitudes* ripple,
-                                                  double size, bool with_ring = true) const {
+  /// Displacement and gradient, Cartesian, of a ripple at a place, with or without those of the ring.
+  std::pair<Vector<double>, Tensor<double>> field(std::size_t place, double z, const Amplitudes& ripple,
+                                                  double size, bool with_ring) const {
     using S = Dual<double, 3>;
     const radial::Ring<double>& ring = model_.ring();
+    const double radius = ring.radius(places_[place]);
     const S x = S::variable(radius * std::cos(angle), 0), y = S::variable(radius * std::sin(angle), 1),
             axial = S::variable(z, 2);
     const S r = sqrt(x * x + y * y), theta = atan2(y, x);
     const S phase = wave_number_ * axial + static_cast<double>(around_) * theta;
     const S depth = (r - ring.inner_radius) / ring.thickness;
-    S radial = size * ripple->at(0, depth) * cos(phase);
-    const S circumferential = size * ripple->at(1, depth) * sin(phase),
-            along = size * ripple->at(2, depth) * sin(phase);
-    if (with_ring) {
-      const double xi = (radius - ring.inner_radius) / ring.thickness;
-      const auto state =
-          model_.respond(base_.lumen_stretch, std::array{std::clamp(xi, 0.0, 1.0)}, false).states[0];
-      radial = radial + S(state.displacement) + state.radial_slope * (r - radius);
-    }
+    S radial = size * ripple.at(0, depth) * cos(phase);
+    const S circumferential = size * ripple.at(1, depth) * sin(phase),
+            along = size * ripple.at(2, depth) * sin(phase);
+    if (with_ring)
+      radial = radial + S(states_[place].displacement) + states_[place].radial_slope * (r - radius);
     const Vector<S> d{radial * cos(theta) - circumferential * sin(theta),
                       radial * sin(theta) + circumferential * cos(theta), along};
     Tensor<double> gradient;
@@ -115,22 +118,25 @@ class RippledWall {
     return {{d[0].value, d[1].value, d[2].value}, gradient};
   }
 
-  double surface_work(double radius, double outward, double z, const Amplitudes& ripple, double size,
+  double surface_work(std::size_t place, double outward, double z, const Amplitudes& ripple, double size,
                       const Amplitudes& test) const {
-    const auto [displacement, gradient] = field(radius, z, &ripple, size);
+    const auto [displacement, gradient] = field(place, z, ripple, size, true);
     const Vector<double> normal{outward * std::cos(angle), outward * std::sin(angle), 0};
     const radial::Ring<double>& ring = model_.ring();
     const auto load =
         outward < 0
             ? physics::pressure_load(base_.pressure, physics::oriented_area(gradient, normal))
             : physics::tether_load({ring.tether_stiffness, ring.traction}, displacement, gradient, normal);
-    return radius * dot(load, field(radius, z, &test, 1, false).first);
+    return ring.radius(places_[place]) * dot(load, field(place, z, test, 1, false).first);
   }
 
   const radial::RingModel& model_;
   const BaseState& base_;
   double wave_number_;
   int around_;
+  std::vector<double> places_, weights_;  ///< quadrature points through the wall; then the surfaces
+  std::vector<std::size_t> layers_;
+  std::vector<radial::WallState<double>> states_;
 };
 
 // Central differences of the weak form: the remainder is of second order in the size of the ripple.
@@ -232,8 +238,8 @@ TEST(Strip, UnloadedWallIsStable) {
   for (const char* law : {"EXP1", "EXP1+EXP2-ZS", "EXP1+EXP2-FS"})
     for (const char* tether : test_support::tether_readings) {
       const BaseState base = wall_stretched(wall_under(law, tether), 1.0);
-      for (const int around : {0, 1, 2, 5})
-        for (const double share : {0.05, 0.5, 5.0, 50.0}) {
+      for (const int around : {0, 1, 5})
+        for (const double share : {0.05, 2.0, 50.0}) {
           SCOPED_TRACE(testing::Message() << law << ", " << tether << ", m = " << around << ", " << share);
           const Strip strip(base, around, true);
           EXPECT_TRUE(strip.is_stable(wave_number(share)));
