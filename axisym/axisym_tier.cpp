@@ -13,6 +13,7 @@
 #include "axisym/setup.hpp"
 #include "axisym/simulation.hpp"
 #include "axisym/static_state.hpp"
+#include "axisym/tangent_stability.hpp"
 #include "core/error.hpp"
 #include "core/observables/event_log.hpp"
 #include "core/observables/stops.hpp"
@@ -176,6 +177,23 @@ class AxisymRun final : public TierRun {
       return;
     }
     sample(0, state, true, true, true);
+    if (!setup_->problem.mesh.has(Part::blood)) judge_stability(state);
+  }
+
+  void judge_stability(std::span<const double> state) {
+    auto& record = result_.record;
+    const TangentStability found = tangent_stability(simulation_.assembler(), 0, state);
+    record.resolution["negative_pivots"] = found.negative;
+    record.resolution["least_eigenvalue"] = found.least_eigenvalue;
+    if (found.negative == 0) return;
+    const bool proven = setup_->problem.tether.traction != radial::TetherTraction::current;
+    record.findings.push_back(
+        fmt::format("the static state {} unstable: its stiffness on this mesh has {} negative direction{}, "
+                    "of which the fastest "
+                    "grows as exp(t/{:.2g} s){}; tether.traction = \"normal\" is stable for the paper's laws",
+                    proven ? "is" : "may be", found.negative, found.negative == 1 ? "" : "s",
+                    1 / std::sqrt(-found.least_eigenvalue),
+                    found.wave_length > 0 ? fmt::format(" as ripples of {:.3g} cm", found.wave_length) : ""));
   }
 
   std::vector<double> steady(const RunControl& control) {

@@ -61,6 +61,8 @@ int run_command(const RunArguments& arguments) {
 
   const RunRecord& record = result.record;
   if (!arguments.quiet)
+    for (const auto& finding : record.findings) spdlog::warn(finding);
+  if (!arguments.quiet)
     fmt::print("{}: tier {}, {} rows, {} steps, {} Newton iterations, set-up {:.1f} ms, solver {:.1f} ms\n",
                folder.string(), record.tier, result.observables.rows(), record.steps,
                record.newton_iterations, 1e3 * record.setup_seconds, 1e3 * record.solve_seconds);

@@ -30,6 +30,8 @@ struct RunRecord {
   bool interrupted = false;
   std::string failure;               ///< where and why the solver gave up; empty when it did not
   std::vector<std::string> remarks;  ///< model differences and warnings, one line each
+  /// What the run found out about its result that a user should know, one line each.
+  std::vector<std::string> findings;
 };
 
 /// What a tier returns. A solver that gives up returns what it has with record.failure set.

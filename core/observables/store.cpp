@@ -143,6 +143,7 @@ std::string record_text(const Scene& scene, const RunRecord& run) {
   record["interrupted"] = run.interrupted;
   record["failure"] = run.failure;
   record["remarks"] = run.remarks;
+  record["findings"] = run.findings;
   Json set_keys;
   record["scene"] = scene_to_json(scene, set_keys);
   record["scene_set"] = std::move(set_keys);
