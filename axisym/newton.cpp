@@ -43,16 +43,23 @@ void Newton::add(std::span<double> y, double factor, const std::vector<double>& 
   for (int u = 0; u < layout.unknowns(); ++u) y[layout.entry(u)] += factor * correction[u];
 }
 
-void Newton::measure(std::span<const double> y) {
+Newton::Sizes Newton::sizes_with(std::span<const double> y) const {
   const Layout& layout = assembler_.layout();
+  Sizes sizes = sizes_;
   for (std::size_t e = 0; e < layout.size(); ++e) {
-    double& size = e < layout.velocity_begin()   ? sizes_.displacement
-                   : e < layout.pressure_begin() ? sizes_.velocity
-                                                 : sizes_.pressure;
+    double& size = e < layout.velocity_begin()   ? sizes.displacement
+                   : e < layout.pressure_begin() ? sizes.velocity
+                                                 : sizes.pressure;
     size = std::max(size, std::abs(y[e]));
   }
+  return sizes;
+}
+
+void Newton::weigh(std::span<const double> y) {
+  const Layout& layout = assembler_.layout();
+  const Sizes sizes = sizes_with(y);
   const auto inverse = [](double size) { return size > 0 ? 1 / size : 0.0; };
-  const double d = inverse(sizes_.displacement), v = inverse(sizes_.velocity), p = inverse(sizes_.pressure);
+  const double d = inverse(sizes.displacement), v = inverse(sizes.velocity), p = inverse(sizes.pressure);
   for (int u = 0; u < layout.unknowns(); ++u) {
     const std::size_t e = layout.entry(u);
     weights_[u] = e < layout.velocity_begin() ? d : e < layout.pressure_begin() ? v : p;
@@ -84,21 +91,20 @@ double Newton::inner(const std::vector<double>& a, const std::vector<double>& b)
 
 NewtonReport Newton::solve(const Stage& stage, std::span<double> y, const NewtonOptions& options) {
   NewtonReport report;
+  const auto converge = [&] {
+    sizes_ = sizes_with(y);
+    report.converged = true;
+    return report;
+  };
   std::vector<double> begin(y.begin(), y.end());
   if (!evaluate(stage, y)) {
     report.failure = "the guess turns cells inside out";
     return report;
   }
-  if (std::all_of(residual_.begin(), residual_.end(), [](double r) { return r == 0; })) {
-    report.converged = true;
-    return report;
-  }
+  if (std::all_of(residual_.begin(), residual_.end(), [](double r) { return r == 0; })) return converge();
   if (factorised_) {
     const Outcome outcome = iterate(stage, y, options, report);
-    if (outcome == Outcome::converged) {
-      report.converged = true;
-      return report;
-    }
+    if (outcome == Outcome::converged) return converge();
     if (outcome == Outcome::failed) std::copy(begin.begin(), begin.end(), y.begin());
     if (!evaluate(stage, y)) {
       std::copy(begin.begin(), begin.end(), y.begin());
@@ -119,10 +125,7 @@ NewtonReport Newton::solve(const Stage& stage, std::span<double> y, const Newton
       if (outcome == Outcome::failed) std::copy(good.begin(), good.end(), y.begin());
       if (!converged) evaluate(stage, y);
     }
-    if (converged) {
-      report.converged = true;
-      return report;
-    }
+    if (converged) return converge();
   }
   report.failure = fmt::format("no convergence in {} iterations", report.iterations);
   return report;
@@ -148,7 +151,7 @@ Newton::Outcome Newton::iterate(const Stage& stage, std::span<double> y, const N
       if (share >= 0.9) return Outcome::slow;
       for (double& entry : z) entry /= 1 - share;
     }
-    measure(y);
+    weigh(y);
     const Norms fields = norms(z);
     const double size = norm(fields);
     if (!std::isfinite(size)) return Outcome::failed;
@@ -167,7 +170,6 @@ Newton::Outcome Newton::iterate(const Stage& stage, std::span<double> y, const N
     }
     if (small) {
       assembler_.complete(stage, y);
-      measure(y);
       return Outcome::converged;
     }
     if (before > 0 && size > options.tolerance) {
@@ -197,13 +199,12 @@ bool Newton::damped_step(const Stage& stage, std::span<double> y, const NewtonOp
     add(y, factor, step);
     if (!evaluate(stage, y)) continue;
     correct(simplified);
-    measure(y);
+    weigh(y);
     const double size = norm(norms(step)), next = norm(norms(simplified));
     if (!std::isfinite(size) || !std::isfinite(next)) continue;
     if (factor == 1 && next <= options.tolerance && next <= 0.5 * size) {
       add(y, 1.0, simplified);
       assembler_.complete(stage, y);
-      measure(y);
       converged = true;
       return true;
     }

@@ -45,8 +45,8 @@ class Newton {
   /// Drops the factorisation, so that what follows does not depend on what came before.
   void forget();
 
-  /// Greatest absolute values of displacement, velocity and pressure so far, which errors are measured by.
-  /// Part of the state of a run.
+  /// Greatest absolute values of displacement, velocity and pressure of the solutions so far, which errors
+  /// are measured by. Part of the state of a run.
   struct Sizes {
     double displacement = 0, velocity = 0, pressure = 0;
   };
@@ -65,7 +65,9 @@ class Newton {
   /// correction = -(derivative)^-1 residual
   void correct(std::vector<double>& correction) const;
   void add(std::span<double> y, double factor, const std::vector<double>& correction) const;
-  void measure(std::span<const double> y);
+  Sizes sizes_with(std::span<const double> y) const;
+  /// Sets the weights by the sizes so far and those of y, which are not kept: iterates may be far off.
+  void weigh(std::span<const double> y);
   using Norms = std::array<double, 3>;  ///< greatest scaled entry of displacement, velocity and pressure
   Norms norms(const std::vector<double>& correction) const;
   static double norm(const Norms& norms);

@@ -40,6 +40,10 @@ bool Simulation::at_milestone() const {
   return control_.counts().accepted % options_.milestone == 0;
 }
 
+bool Simulation::jumps_at(double time) const {
+  return std::binary_search(options_.jumps.begin(), options_.jumps.end(), time);
+}
+
 double Simulation::error_norm(std::span<const double> stage_value) {
   scheme_.error(stage_value, error_);
   const Layout& layout = assembler_.layout();
@@ -54,7 +58,7 @@ double Simulation::error_norm(std::span<const double> stage_value) {
   const double velocity = std::max(sizes.velocity, scales.velocity);
   for (int u = 0; u < layout.unknowns(); ++u) {
     const std::size_t e = layout.entry(u);
-    if (e >= layout.pressure_begin()) break;
+    if (e >= layout.pressure_begin()) continue;
     if (moves && e < layout.velocity_begin() && layout.on_wall(static_cast<int>(e / 2)))
       include(e, displacement);
     else if (!moves && e >= layout.velocity_begin())
@@ -68,13 +72,20 @@ double Simulation::error_norm(std::span<const double> stage_value) {
 void Simulation::advance(double stop) {
   const auto jump = std::upper_bound(options_.jumps.begin(), options_.jumps.end(), time());
   if (jump != options_.jumps.end()) stop = std::min(stop, *jump);
+  // Only now, so that the step up to the jump could be interpolated.
+  if (jumps_at(time())) {
+    scheme_.start(time(), scheme_.value());
+    control_.restart();
+  }
   const NewtonOptions newton{options_.newton_tolerance, 60};
   for (;;) {
     const time::Step step = control_.next(time(), stop);
     const time::Stage& at = scheme_.begin(step);
     const auto prediction = scheme_.prediction();
     std::copy(prediction.begin(), prediction.end(), candidate_.begin());
-    const Stage stage{at.time, at.coefficient, scheme_.history()};
+    // A step up to a jump bears the loads of before.
+    const double loads = jumps_at(at.time) ? at.time * (1 - 1e-12) : at.time;
+    const Stage stage{loads, at.coefficient, scheme_.history()};
     const NewtonReport report = newton_.solve(stage, candidate_, newton);
     time::Verdict verdict = time::Verdict::retry;
     if (report.converged) {
@@ -91,10 +102,6 @@ void Simulation::advance(double stop) {
   scheme_.accept(candidate_);
   least_jacobian_ = std::min(least_jacobian_, assembler_.least_jacobian().value);
   if (at_milestone()) newton_.forget();
-  if (std::binary_search(options_.jumps.begin(), options_.jumps.end(), time())) {
-    scheme_.start(time(), scheme_.value());
-    control_.restart();
-  }
 }
 
 void Simulation::give_up(const NewtonReport& report) const {

@@ -58,6 +58,7 @@ class Simulation {
   void restore(const nlohmann::json& saved);
 
  private:
+  bool jumps_at(double time) const;
   double error_norm(std::span<const double> stage_value);
   [[noreturn]] void give_up(const NewtonReport& report) const;
 
