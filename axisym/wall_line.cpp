@@ -1,21 +1,37 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "axisym/wall_line.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 #include "axisym/meeting.hpp"
 
 namespace tunica::axisym {
 
+namespace {
+
+/// True for the Gauss-Legendre points of lines through a quadrilateral from side to side, to 1/20 of its
+/// width as cells may be bent, and for points on sides of triangles.
+bool is_best_place(CellShape shape, bool quadratic, const element::Local& local) {
+  if (shape == CellShape::triangle)
+    return on_side(shape, 0, local) || on_side(shape, 1, local) || on_side(shape, 2, local);
+  const double best = quadratic ? 1 / std::numbers::sqrt3 : 0;
+  return std::abs(std::abs(local[0]) - best) < 0.1 || std::abs(std::abs(local[1]) - best) < 0.1;
+}
+
+}  // namespace
+
 WallLine::WallLine(const WallReader& reader, double height, const std::vector<double>& radii)
     : reader_(reader) {
   const Problem& problem = reader.assembler().problem();
   const Mesh& mesh = problem.mesh;
-  const int per_cell = problem.discretisation.element == Element::quadratic ? 2 : 1;
-  for (const SectionPoint& q : section_rule(mesh, section_at(mesh, height), Part::wall, per_cell)) {
+  const bool quadratic = problem.discretisation.element == Element::quadratic;
+  for (const SectionPoint& q : section_rule(mesh, section_at(mesh, height), Part::wall, quadratic ? 2 : 1)) {
     auto places = in_innermost_layer(mesh, meeting_places(mesh, q.place));
-    samples_.push_back({q.radius, mesh.cells[places.front().cell].layer, std::move(places)});
+    samples_.push_back({q.radius, mesh.cells[places.front().cell].layer,
+                        is_best_place(mesh.shape, quadratic, q.place.local), std::move(places)});
   }
   for (const double radius : radii) {
     const auto place = locate(mesh, {radius, height}, Part::wall);
@@ -38,17 +54,16 @@ void WallLine::choose_samples(Spot& spot) const {
   while (spot.first + count < end &&
          samples_[spot.first + count].radius - spot.radius < spot.radius - samples_[spot.first].radius)
     ++spot.first;
-  double size = 0;
   for (std::size_t i = spot.first; i < spot.first + count; ++i) {
+    if (!samples_[i].is_best) {
+      spot.weights.clear();
+      return;
+    }
     double weight = 1;
     for (std::size_t j = spot.first; j < spot.first + count; ++j)
       if (j != i) weight *= (spot.radius - samples_[j].radius) / (samples_[i].radius - samples_[j].radius);
     spot.weights.push_back(weight);
-    size += std::abs(weight);
   }
-  // At the end of equal cells it is 3.5 at most.
-  constexpr double greatest_size = 6;
-  if (!(size < greatest_size)) spot.weights.clear();
 }
 
 std::vector<WallState> WallLine::states(std::span<const double> y) const {

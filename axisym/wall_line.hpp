@@ -17,12 +17,12 @@ struct WallState {
 
 /// Points of the wall along the radius at a height of the unloaded vessel.
 ///
-/// Strain has its best values at the Gauss-Legendre points of each cell along the line, two for quadratic and
-/// one for linear displacements, where it is a whole order more accurate than elsewhere (Barlow, Int. J.
-/// Numer. Methods Eng. 10:243, 1976). A parabola through the three of them in the same layer that are nearest
-/// carries them to a point, and so the wall pressure, whose projection agrees best there too. Hoop strain
-/// needs no slope: it is d_r/r. Where the samples are too close together to extrapolate from, as at the
-/// corners that a line may cut off cells, the strain is the mean of the cells that meet at the point.
+/// Where the line crosses quadrilaterals from side to side or runs along sides of triangles, strain is a
+/// whole order more accurate at the Gauss-Legendre points of each cell along it, two for quadratic and one
+/// for linear displacements, than elsewhere (Barlow, Int. J. Numer. Methods Eng. 10:243, 1976); so is the
+/// wall pressure. A parabola through the three of them in the same layer that are nearest carries both to a
+/// point. Hoop strain needs no slope: it is d_r/r. Elsewhere the strain is the mean of the cells that meet at
+/// the point.
 class WallLine {
  public:
   /// Throws InvalidInput if the plane of that height does not cut the vessel, std::logic_error for radii
@@ -41,6 +41,7 @@ class WallLine {
   struct Sample {
     double radius;
     int layer;
+    bool is_best;  ///< strain is more accurate there
     std::vector<Place> places;
   };
   struct Spot {

@@ -44,6 +44,8 @@ Checkpoint rich_checkpoint() {
   result.recruited_time[0].labels = {"P1", "caf\xe9"};
   result.compartments.add("pressure.1", "dyn/cm2");
   result.compartments[0].values = {observables::none, -0.0, 0.1};
+  result.along.add("wall_shear_stress", "dyn/cm2");
+  result.along[0].values = {0.1, observables::none};
   observables::FieldSeries series;
   series.name = "wall";
   series.mesh.shape = observables::CellShape::triangle;
@@ -121,8 +123,9 @@ TEST(CheckpointFile, ReadsBackWhatWasWritten) {
 
   // What is stored of both is the same, byte by byte.
   const Result &before = written.so_far, &after = read.so_far;
-  for (const auto table : {&Result::observables, &Result::profiles, &Result::events, &Result::sensitivities,
-                           &Result::event_sensitivities, &Result::recruited_time, &Result::compartments}) {
+  for (const auto table :
+       {&Result::observables, &Result::profiles, &Result::events, &Result::sensitivities,
+        &Result::event_sensitivities, &Result::recruited_time, &Result::compartments, &Result::along}) {
     EXPECT_GT((before.*table).rows(), 0U);
     EXPECT_EQ(observables::to_csv(after.*table), observables::to_csv(before.*table));
   }
