@@ -37,7 +37,7 @@ time::Method method_from(const std::string& name) {
 
 SimulationOptions options_of(const Scene& scene, const Setup& setup, double end) {
   SimulationOptions options;
-  options.method = method_from(scene.text("time.scheme"));
+  if (scene.has("time.scheme")) options.method = method_from(scene.text("time.scheme"));
   options.tolerance = setup.resolution.local_tolerance;
   options.newton_tolerance = setup.resolution.newton_tolerance;
   options.scales = setup.expected;
