@@ -13,10 +13,12 @@
 #include <string>
 #include <vector>
 
+#include "axisym/fields.hpp"
 #include "axisym/gmsh.hpp"
 #include "axisym/structured.hpp"
 #include "axisym/tables.hpp"
 #include "core/error.hpp"
+#include "tests/support/axisym_state.hpp"
 #include "tests/support/gmsh_model.hpp"
 
 namespace tunica::axisym {
@@ -266,6 +268,41 @@ TEST(WallDirectionsInAStenosis, AreTangentialToTheSurfaces) {
   // Curvature jumps where the stenosis begins, within a cell: there the order is 1.
   EXPECT_GT(std::log2(normal_part[1] / normal_part[2]), 0.85);
   EXPECT_LT(normal_part[2], 2e-3);
+}
+
+// In an unloaded wall fibres are shown at cos(beta) e_theta + sin(beta) times the surfaces' tangent.
+TEST(WallDirectionsInAStenosis, AreThoseOfTheFibersInPictures) {
+  test_support::Stenosis shape;
+  shape.type = test_support::triangle6;
+  shape.blood_cells = 0;
+  shape.wall_cells = 4;
+  shape.axial_cells = 128;
+  const Problem problem =
+      test_support::vessel(parse_gmsh(test_support::stenosis_mesh(shape).text("4.1"), "stenosis"),
+                           Element::quadratic, {"wall.fiber_angle=30"});
+  const Assembler assembler(problem);
+  const Fields fields(assembler);
+  auto series = fields.empty_series();
+  fields.append(0, std::vector<double>(assembler.layout().size(), 0.0), series);
+  const observables::FieldSeries& wall = series.back();
+  std::size_t field = 0;
+  while (wall.point_fields[field].name != "fiber_direction") ++field;
+  const auto& directions = wall.frames[0].values[field];
+  double worst = 0;
+  for (std::size_t k = 0; k < wall.mesh.points.size(); ++k) {
+    const double r = wall.mesh.points[k][0], z = wall.mesh.points[k][2];
+    const bool inner = std::abs(r - shape.lumen(z)) < 1e-9;
+    if (!inner && std::abs(r - shape.radius - shape.thickness) > 1e-9) continue;
+    constexpr double step = 1e-6;
+    const double slope = inner ? (shape.lumen(z + step) - shape.lumen(z - step)) / (2 * step) : 0;
+    EXPECT_NEAR(directions[3 * k + 1], std::sqrt(0.75), 1e-6);
+    EXPECT_NEAR(std::hypot(directions[3 * k], directions[3 * k + 2]), 0.5, 1e-6);
+    worst =
+        std::max(worst, std::abs(std::atan2(directions[3 * k], directions[3 * k + 2]) - std::atan(slope)));
+  }
+  std::cout << "fibres are inclined by " << worst << " rad to the surfaces at most\n";
+  // As much as the direction has of the normals (AreTangentialToTheSurfaces) on cells of this size.
+  EXPECT_LT(worst, 5e-3);
 }
 
 TEST(WallDirectionsInAStenosis, AreUnitVectorsInTheHalfPlane) {
