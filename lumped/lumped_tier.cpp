@@ -197,13 +197,23 @@ class LumpedRun final : public TierRun {
       begin_on(find_limit_cycle(s, state, period, carried, tolerance_));
 
     Integrator integrator(s, carried, tolerance_);
-    const double end = stops_.back().time;
-    integrator.start(0, end, state, derivatives);
+    const double end = stops_.back().time, round_off = 1e-12 * end;
+    // Where the inlet jumps a new integration begins: in a steady state steps grow so long that one would
+    // pass over a whole pulse without meeting it.
+    std::vector<double> ends = network_.inlet().jumps(end);
+    ends.push_back(end);
+    auto next_end = ends.begin();
+    integrator.start(0, *next_end, state, derivatives);
     for (const observables::Stop& stop : stops_) {
-      while (integrator.time() < stop.time) {
-        const auto crossings = integrator.advance(stop.time);
+      while (stop.time - integrator.time() > round_off) {
+        const auto crossings = integrator.advance(std::min(stop.time, *next_end));
         time_ = integrator.time();
         for (const Crossing& crossing : crossings) log_.record(integrator, crossing);
+        if (time_ < *next_end || time_ >= end) continue;
+        state.assign(integrator.state(), integrator.state() + s.unknowns);
+        for (int k = 0; k < network_.parameters(); ++k)
+          derivatives[k].assign(integrator.sensitivity(k), integrator.sensitivity(k) + s.unknowns);
+        integrator.start(time_, *++next_end, state, derivatives);
       }
       if (stop.begins_last_beat) log_.begin_last_beat(stop.time, integrator.state());
       record_stop(integrator, stop);

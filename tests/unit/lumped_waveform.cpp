@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 
 #include "tests/support/lumped_runs.hpp"
@@ -75,13 +76,37 @@ TEST(LumpedWaveform, SampledCarotidGivesTheSameRun) {
 TEST(LumpedWaveform, PressureFromAFile) {
   const test_support::TemporaryFolder folder;
   std::ofstream(folder.path() / "p.csv") << "time[s],pressure[mmHg]\n0,80\n0.1,120\n0.3,100\n0.5,80\n";
-  const auto inlet =
-      inlet_from_scene(scene_with({"inlet.waveform=p.csv", "time.ramp=0"}, folder.path()));
+  const auto inlet = inlet_from_scene(scene_with({"inlet.waveform=p.csv", "time.ramp=0"}, folder.path()));
   EXPECT_TRUE(inlet.is_pressure);
   EXPECT_EQ(inlet.period, 0.5);
   EXPECT_EQ(inlet.scale_key, "");
   EXPECT_NEAR(inlet.shape_at(0.1), 120 * 1333.22387, 1e-6);
   EXPECT_NEAR(inlet.shape_at(1.3), 100 * 1333.22387, 1e-6);
+}
+
+// The artery forgets a pulse of 3 ms within some 0.1 s, so that all beats are alike. Nothing happens between
+// pulses: steps are as long as they may be when the next one comes.
+TEST(LumpedWaveform, EveryPulseIsMet) {
+  for (const char* start : {"rest", "periodic"}) {
+    SCOPED_TRACE(start);
+    const Result run =
+        run_lumped({std::string("time.start=") + start, "wall.law=EXP1", "inlet.waveform=pulse",
+                    "inlet.pressure='10 mmHg'", "inlet.period=1", "inlet.duration=0.003",
+                    "outlet.resistance=1e5", "time.beats=3", "time.ramp=0",
+                    "sensitivity.parameters=['inlet.pressure']", "accuracy.tolerance=1e-6"});
+    const auto& time = column(run.observables, "time");
+    for (const char* name : {"pressure", "outflow"}) {
+      const auto& values = column(run.observables, name);
+      const auto& derivatives = column(run.sensitivities, fmt::format("d({})/d(inlet.pressure)", name));
+      const double greatest = *std::max_element(values.begin(), values.end());
+      const double steepest = *std::max_element(derivatives.begin(), derivatives.end());
+      EXPECT_GT(greatest, 0);
+      for (std::size_t k = 0; k + 1000 < time.size(); ++k) {
+        EXPECT_NEAR(values[k + 1000], values[k], 1e-6 * greatest) << name << " at " << time[k];
+        EXPECT_NEAR(derivatives[k + 1000], derivatives[k], 1e-5 * steepest) << name << " at " << time[k];
+      }
+    }
+  }
 }
 
 }  // namespace
