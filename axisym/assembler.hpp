@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <array>
-#include <optional>
 #include <span>
-#include <vector>
 
-#include "axisym/direct_solver.hpp"
-#include "axisym/layout.hpp"
-#include "axisym/tables.hpp"
+#include "axisym/matrix_map.hpp"
 
 namespace tunica::axisym {
 
@@ -33,7 +28,10 @@ struct LeastJacobian {
 /// scalars <- their own equations. The derivative is exact, by duals, the motion of the mesh included.
 class Assembler {
  public:
+  /// The problem must outlive it.
   explicit Assembler(const Problem& problem);
+  Assembler(const Assembler&) = delete;
+  Assembler& operator=(const Assembler&) = delete;
 
   const Problem& problem() const { return problem_; }
   const Layout& layout() const { return layout_; }
@@ -49,7 +47,7 @@ class Assembler {
   const LeastJacobian& least_jacobian() const { return least_; }
 
   /// A matrix with the pattern of the derivative.
-  SparseMatrix pattern() const { return pattern_; }
+  SparseMatrix pattern() const { return map_.pattern(); }
   /// Fills `matrix` (from pattern()) with the derivative at a complete state.
   void tangent(const Stage& stage, std::span<const double> y, SparseMatrix& matrix) const;
 
@@ -57,30 +55,6 @@ class Assembler {
   double flow(const Stage& stage, std::span<const double> y, Boundary boundary) const;
 
  private:
-  /// Unknowns of a cell's or side's test and trial functions, -1 where there is none, [component][function].
-  struct Numbers {
-    std::array<std::array<int, cell_width>, 2> momentum, mesh, velocity, displacement;
-    std::array<int, cell_width> continuity, pressure;
-    std::array<bool, cell_width> adheres;  ///< the velocity is the rate of the displacement
-  };
-  /// A cell's or side's numbers, and the places in the matrix of its entries in the order in which scatter()
-  /// visits them.
-  struct Targets {
-    Numbers numbers;
-    std::vector<int> places;
-  };
-  struct ScalarRow {
-    std::size_t entry;  ///< of y
-    double factor;      ///< on the flow out
-  };
-
-  Numbers cell_numbers(int cell) const;
-  Numbers side_numbers(const SideTable& side) const;
-  void build_pattern();
-  std::vector<ScalarRow> scalar_rows(Boundary boundary) const;
-  /// Entry of y that holds the pressure on a boundary, none when there is no such unknown.
-  std::optional<std::size_t> pressure_entry(Boundary boundary) const;
-  bool is_loaded(const SideTable& side) const;
   double pressure_on(const SideTable& side, const Stage& stage, std::span<const double> y) const;
 
   void add_sides(const Stage& stage, std::span<const double> y, std::span<double> residual) const;
@@ -90,8 +64,7 @@ class Assembler {
   const Problem& problem_;
   Layout layout_;
   Tables tables_;
-  SparseMatrix pattern_;
-  std::vector<Targets> blood_targets_, wall_targets_, side_targets_;
+  MatrixMap map_;
   mutable LeastJacobian least_;
 };
 
