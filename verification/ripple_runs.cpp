@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// tunica_ripple_runs PAGE SCENE PICTURE [CSV]: what runs in time of the printed tether do on meshes and steps
+// of several sizes. Writes the table of docs/verification/tether-stability.md between its marks, the lumen's
+// shape as an SVG, and with CSV the numbers behind it.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "axisym/axisym_tier.hpp"
+#include "core/observables/result.hpp"
+
+using namespace tunica;
+
+namespace {
+
+constexpr std::string_view first_mark = "<!-- runs: written by tunica_ripple_runs, do not edit -->\n";
+constexpr std::string_view last_mark = "<!-- end of runs -->\n";
+constexpr double thickness = 0.01;  // cm
+constexpr double length = 0.66;     // cm
+/// Flow that grows within 0.05 s and is then held, so that the pressure stays where the wall ripples most.
+constexpr double end = 0.15;  // s
+
+struct Case {
+  const char* law;
+  const char* element;
+  int axial_cells, wall_cells;
+  double step;      // s
+  double pressure;  // mmHg, that the flow makes at the outlet
+};
+constexpr Case cases[] = {
+    {"EXP1+EXP2-FS", "quadratic", 16, 3, 1e-3, 100}, {"EXP1+EXP2-FS", "quadratic", 32, 3, 1e-3, 100},
+    {"EXP1+EXP2-FS", "quadratic", 64, 3, 1e-3, 100}, {"EXP1+EXP2-FS", "quadratic", 128, 3, 1e-3, 100},
+    {"EXP1+EXP2-FS", "quadratic", 64, 3, 1e-4, 100}, {"EXP1+EXP2-FS", "bubble", 64, 3, 1e-3, 100},
+    {"EXP1+EXP2-FS", "bubble", 128, 3, 1e-3, 100},   {"EXP1+EXP2-FS", "bubble", 128, 3, 1e-4, 100},
+    {"EXP2", "quadratic", 64, 3, 1e-3, 45},          {"EXP2", "quadratic", 128, 3, 1e-3, 45},
+    {"EXP2", "quadratic", 128, 3, 1e-4, 45},         {"EXP2", "bubble", 128, 3, 1e-3, 45}};
+
+struct Line {
+  std::vector<double> z, radius;
+};
+struct Outcome {
+  Line lumen;              ///< at the last time that was reached
+  double amplitude = 0;    ///< greatest departure from a smooth shape, in thicknesses
+  double wave_length = 0;  ///< in thicknesses; 0 without ripples
+  double onset = 0;        ///< s; 0 without ripples
+  long steps = 0;
+  std::string failure;
+};
+
+/// Departure of the lumen's radius from a cubic in the middle of the artery, where the ends are not felt.
+std::vector<std::pair<double, double>> ripples(const Line& line) {
+  std::vector<std::pair<double, double>> middle;
+  for (std::size_t k = 0; k < line.z.size(); ++k)
+    if (std::abs(line.z[k] - 0.5 * length) < 0.27 * length) middle.emplace_back(line.z[k], line.radius[k]);
+  const auto n = static_cast<Eigen::Index>(middle.size());
+  Eigen::MatrixXd powers(n, 4);
+  Eigen::VectorXd radius(n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const double x = middle[k].first / length - 0.5;
+    powers.row(k) << 1, x, x * x, x * x * x;
+    radius[k] = middle[k].second;
+  }
+  const Eigen::VectorXd smooth = powers * powers.colPivHouseholderQr().solve(radius);
+  for (Eigen::Index k = 0; k < n; ++k) middle[k].second -= smooth[k];
+  return middle;
+}
+
+constexpr double visible = 0.01;  ///< of the thickness: from there on a ripple is one
+
+Outcome run(const std::filesystem::path& file, const Case& c) {
+  std::vector<double> times;
+  for (double t = 0.01; t < end - 1e-9; t += 0.005) times.push_back(t);
+  times.push_back(end - 1e-6);
+  // R Q = p: the flow that makes the pressure at the printed resistance.
+  const double flow = c.pressure * 1333.22387 / 1.032e6;
+  const Scene scene = read_scene(
+      file,
+      {fmt::format("wall.law={}", c.law), fmt::format("mesh.element={}", c.element),
+       fmt::format("mesh.axial_cells={}", c.axial_cells), fmt::format("mesh.wall_cells={}", c.wall_cells),
+       "mesh.blood_cells=2", fmt::format("time.step={}", c.step), "time.beats=1", "time.ramp=0.05",
+       fmt::format("inlet.period={}", end), "inlet.waveform=constant", fmt::format("inlet.flow={}", flow),
+       "output.field_interval=0", fmt::format("output.profile_times=[{}]", fmt::join(times, ","))});
+  const Result result = axisym::AxisymTier().prepare(scene)->execute({});
+  Outcome outcome;
+  outcome.steps = result.record.steps;
+  outcome.failure = result.record.failure;
+  const auto& time = result.along.find("time")->values;
+  const auto& z = result.along.find("z")->values;
+  const auto& radius = result.along.find("lumen_radius")->values;
+  for (std::size_t row = 0; row < time.size();) {
+    Line line;
+    const double now = time[row];
+    for (; row < time.size() && time[row] == now; ++row) {
+      line.z.push_back(z[row]);
+      line.radius.push_back(radius[row]);
+    }
+    const auto parts = ripples(line);
+    double greatest = 0;
+    int changes = 0;
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+      greatest = std::max(greatest, std::abs(parts[k].second));
+      if (k > 0 && parts[k].second * parts[k - 1].second < 0) ++changes;
+    }
+    outcome.amplitude = greatest / thickness;
+    const bool ripples_now = outcome.amplitude > visible;
+    if (ripples_now && outcome.onset == 0) outcome.onset = now;
+    outcome.wave_length =
+        ripples_now && changes > 1 ? 2 * (parts.back().first - parts.front().first) / changes / thickness : 0;
+    outcome.lumen = std::move(line);
+  }
+  return outcome;
+}
+
+std::string name(const Case& c) {
+  return fmt::format("{}, {}, {} cells, {:g} s", c.law, c.element, c.axial_cells, c.step);
+}
+
+std::string table(const std::vector<Outcome>& outcomes) {
+  std::string text =
+      "\n| Law | mmHg | Element | Axial cells | Cell, h | Step, s | Ripples > 0.01 h from | Amplitude at the "
+      "end | Wave "
+      "length | Ended |\n|---|---|---|---|---|---|---|---|---|---|\n";
+  for (std::size_t k = 0; k < outcomes.size(); ++k) {
+    const Case& c = cases[k];
+    const Outcome& o = outcomes[k];
+    text += fmt::format("| {} | {:g} | {} | {} | {:.1f} | {:g} | {} | {:.2g} h | {} | {} |\n", c.law,
+                        c.pressure, c.element, c.axial_cells, length / c.axial_cells / thickness, c.step,
+                        o.onset > 0 ? fmt::format("{:.3f} s", o.onset) : "–", o.amplitude,
+                        o.wave_length > 0 ? fmt::format("{:.1f} h", o.wave_length) : "–",
+                        o.failure.empty() ? "at 0.15 s" : "gave up");
+  }
+  return text + "\n";
+}
+
+/// The lumen's radius along the artery, one curve under another.
+std::string picture(const std::vector<std::size_t>& shown, const std::vector<Outcome>& outcomes) {
+  constexpr double width = 760, row = 120, left = 60, top = 26;
+  const double height = row * static_cast<double>(shown.size()) + 40;
+  std::string svg = fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" font-family=\"sans-serif\" "
+      "font-size=\"12\"><rect width=\"{0}\" height=\"{1}\" fill=\"white\"/>\n",
+      width, height);
+  const auto x = [&](double z) { return left + z / length * (width - left - 20); };
+  for (std::size_t k = 0; k < shown.size(); ++k) {
+    const Outcome& o = outcomes[shown[k]];
+    const double base = top + row * static_cast<double>(k + 1) - 24;
+    const auto y = [&](double radius) { return base - (radius - 0.03) / 0.03 * (row - 44); };
+    svg += fmt::format("<text x=\"{}\" y=\"{}\">{}</text>\n", left, base - row + 40, name(cases[shown[k]]));
+    for (const double r : {0.03, 0.045, 0.06})
+      svg += fmt::format(
+          "<line x1=\"{0}\" x2=\"{1}\" y1=\"{2:.1f}\" y2=\"{2:.1f}\" stroke=\"#ddd\"/><text x=\"{3}\" "
+          "y=\"{4:.1f}\" text-anchor=\"end\">{5}</text>\n",
+          x(0), x(length), y(r), left - 6, y(r) + 4, r);
+    svg += "<polyline fill=\"none\" stroke=\"#b03030\" stroke-width=\"1.2\" points=\"";
+    for (std::size_t n = 0; n < o.lumen.z.size(); ++n)
+      svg += fmt::format("{:.1f},{:.1f} ", x(o.lumen.z[n]), y(o.lumen.radius[n]));
+    svg += "\"/>\n";
+  }
+  svg += fmt::format(
+      "<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">z from 0 to {} cm; lumen radius in cm</text>\n",
+      x(length / 2), height - 12, length);
+  return svg + "</svg>\n";
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  if (count < 4 || count > 5) {
+    fmt::print(stderr, "usage: tunica_ripple_runs PAGE SCENE PICTURE [CSV]\n");
+    return 2;
+  }
+  try {
+    std::ifstream file(arguments[1]);
+    if (!file) throw std::runtime_error(fmt::format("{} cannot be read", arguments[1]));
+    const std::string page{std::istreambuf_iterator<char>(file), {}};
+    const std::size_t begin = page.find(first_mark), finish = page.find(last_mark);
+    if (begin == std::string::npos || finish == std::string::npos || finish < begin)
+      throw std::runtime_error(fmt::format("the page lacks the marks {} and {}", first_mark, last_mark));
+    std::vector<Outcome> outcomes;
+    std::string csv = "case,z[cm],lumen_radius[cm]\n";
+    for (const Case& c : cases) {
+      fmt::print("{}\n", name(c));
+      std::fflush(stdout);
+      outcomes.push_back(run(arguments[2], c));
+      const Line& line = outcomes.back().lumen;
+      for (std::size_t k = 0; k < line.z.size(); ++k)
+        csv += fmt::format("\"{}\",{:.6g},{:.6g}\n", name(c), line.z[k], line.radius[k]);
+      fmt::print("  {} steps, amplitude {:.3g} h, wave length {:.3g} h {}\n", outcomes.back().steps,
+                 outcomes.back().amplitude, outcomes.back().wave_length, outcomes.back().failure);
+      std::fflush(stdout);
+    }
+    write_whole(arguments[1],
+                page.substr(0, begin + first_mark.size()) + table(outcomes) + page.substr(finish));
+    write_whole(arguments[3], picture({0, 2, 3, 6, 9, 11}, outcomes));
+    if (count == 5) write_whole(arguments[4], csv);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "tunica_ripple_runs: {}\n", error.what());
+    return 2;
+  }
+  return 0;
+}
