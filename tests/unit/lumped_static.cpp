@@ -27,8 +27,8 @@ struct NetworkCase {
   bool is_pressure = false;
 };
 
-void PrintTo(const NetworkCase& network, std::ostream* out) {
-  *out << network.name;
+std::ostream& operator<<(std::ostream& out, const NetworkCase& network) {
+  return out << network.name;
 }
 
 class StaticStart : public testing::TestWithParam<NetworkCase> {
@@ -198,7 +198,8 @@ TEST(LumpedStaticStart, HasNoRamp) {
     EXPECT_NEAR(inflow[k], scale * inlet.shape_at(time[k]), 1e-12);
 }
 
-lumped::System scalar_system(std::function<double(double y)> rate, std::function<double(double y)> slope) {
+lumped::System scalar_system(const std::function<double(double y)>& rate,
+                             const std::function<double(double y)>& slope) {
   lumped::System system;
   system.unknowns = 1;
   system.scales = {1};
