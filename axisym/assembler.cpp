@@ -222,10 +222,12 @@ void Assembler::tangent(const Stage& stage, std::span<const double> y, SparseMat
   const double c = stage.coefficient;
   // Cells are computed side by side and added in their order, so that sums do not depend on threads.
   constexpr int batch = 64;
+  // On few cells, and the more so on a busy machine, threads wait longer for each other than they work.
+  const bool share = blood_count + wall_count > batch;
   std::vector<BloodTangent> blood(batch);
   for (int first = 0; first < blood_count; first += batch) {
     const int last = std::min(first + batch, blood_count);
-#pragma omp parallel for schedule(dynamic, 4)
+#pragma omp parallel for schedule(dynamic, 4) if (share)
     for (int k = first; k < last; ++k) {
       const BloodTable& table = tables_.blood[k];
       const auto nodes = blood_nodes(problem_, layout_, problem_.mesh.cells[table.cell], stage, y);
@@ -239,7 +241,7 @@ void Assembler::tangent(const Stage& stage, std::span<const double> y, SparseMat
   std::vector<WallTangent> wall(batch);
   for (int first = 0; first < wall_count; first += batch) {
     const int last = std::min(first + batch, wall_count);
-#pragma omp parallel for schedule(dynamic, 4)
+#pragma omp parallel for schedule(dynamic, 4) if (share)
     for (int k = first; k < last; ++k) {
       const WallTable& table = tables_.wall[k];
       const auto nodes = wall_nodes(problem_, layout_, problem_.mesh.cells[table.cell], stage, y);
