@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <vector>
+
+#include "axisym/newton.hpp"
+#include "core/time/scheme.hpp"
+
+namespace tunica::test_support {
+
+/// Takes the steps of a time scheme that has been started; `after` sees the scheme after each. False, with
+/// a test failure, when a step is not solved.
+inline bool march(const axisym::Assembler& assembler, time::Scheme& scheme, const std::vector<double>& steps,
+                  double newton_tolerance, const std::function<void()>& after = {}) {
+  axisym::Newton newton(assembler);
+  std::vector<double> state(assembler.layout().size());
+  for (const double step : steps) {
+    const time::Stage& at = scheme.begin(step);
+    std::copy(scheme.prediction().begin(), scheme.prediction().end(), state.begin());
+    const auto report =
+        newton.solve({at.time, at.coefficient, scheme.history()}, state, {newton_tolerance, 30});
+    if (!report.converged) {
+      ADD_FAILURE() << "at " << at.time << " s: " << report.failure;
+      return false;
+    }
+    scheme.accept(state);
+    if (after) after();
+  }
+  return true;
+}
+
+}  // namespace tunica::test_support
