@@ -134,7 +134,9 @@ class AxisymRun final : public TierRun {
       else
         record.resolution["local_tolerance"] = r.local_tolerance;
     }
-    if (problem.tether.traction != radial::TetherTraction::normal && setup_->ring)
+    const bool may_ripple =
+        problem.tether.traction != radial::TetherTraction::normal || problem.tether.stiffness == 0;
+    if (may_ripple && setup_->ring && scene_.text("geometry.kind") != "mesh")
       if (const auto warning = stability::warning(scene_, setup_->expected_pressure))
         warnings_.push_back(*warning);
     record.remarks = scene_.remarks();
@@ -182,7 +184,13 @@ class AxisymRun final : public TierRun {
 
   void judge_stability(std::span<const double> state) {
     auto& record = result_.record;
-    const TangentStability found = tangent_stability(simulation_.assembler(), 0, state);
+    TangentStability found;
+    try {
+      found = tangent_stability(simulation_.assembler(), 0, state);
+    } catch (const SolverFailure& failure) {
+      record.findings.emplace_back(failure.what());
+      return;
+    }
     record.resolution["negative_pivots"] = found.negative;
     record.resolution["least_eigenvalue"] = found.least_eigenvalue;
     if (found.negative == 0) return;
@@ -190,10 +198,13 @@ class AxisymRun final : public TierRun {
     record.findings.push_back(
         fmt::format("the static state {} unstable: its stiffness on this mesh has {} negative direction{}, "
                     "of which the fastest "
-                    "grows as exp(t/{:.2g} s){}; tether.traction = \"normal\" is stable for the paper's laws",
+                    "grows as exp(t/{:.2g} s){}; {}",
                     proven ? "is" : "may be", found.negative, found.negative == 1 ? "" : "s",
                     1 / std::sqrt(-found.least_eigenvalue),
-                    found.wave_length > 0 ? fmt::format(" as ripples of {:.3g} cm", found.wave_length) : ""));
+                    found.wave_length > 0 ? fmt::format(" as ripples of {:.3g} cm", found.wave_length) : "",
+                    setup_->problem.tether.traction == radial::TetherTraction::normal
+                        ? "a stiffer wall or tether would hold it"
+                        : "tether.traction = \"normal\" is stable for the paper's laws"));
   }
 
   std::vector<double> steady(const RunControl& control) {

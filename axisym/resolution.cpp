@@ -19,6 +19,22 @@ int cells(double at_one_percent, double order, double tolerance) {
   return static_cast<int>(std::ceil(at_one_percent * std::pow(0.01 / tolerance, 1 / order) - 1e-9));
 }
 
+/// What is left of a mesh without its blood; nodes that only the blood had stay and are used by nothing.
+Mesh wall_alone(Mesh mesh) {
+  if (!mesh.has(Part::wall)) return mesh;
+  std::vector<int> place(mesh.cells.size(), -1);
+  std::vector<Cell> cells;
+  for (std::size_t k = 0; k < mesh.cells.size(); ++k) {
+    if (mesh.cells[k].part != Part::wall) continue;
+    place[k] = static_cast<int>(cells.size());
+    cells.push_back(mesh.cells[k]);
+  }
+  std::erase_if(mesh.edges, [&](const Edge& edge) { return place[edge.cell] < 0; });
+  for (Edge& edge : mesh.edges) edge.cell = place[edge.cell];
+  mesh.cells = std::move(cells);
+  return mesh;
+}
+
 }  // namespace
 
 Resolution resolution(const Scene& scene) {
@@ -50,7 +66,12 @@ Mesh mesh_of(const Scene& scene, const Resolution& resolution, bool with_blood) 
     const auto file = scene.folder() / scene.text("geometry.file");
     Mesh mesh = read_gmsh(file);
     check(mesh, {scene.number("geometry.radius"), file.string()});
-    return mesh;
+    if (scene.text("mesh.element") == "bubble" && mesh.shape != CellShape::triangle)
+      throw InvalidInput(fmt::format(
+          "{}: mesh.element = \"bubble\" needs triangles, and this mesh has quadrilaterals; mesh it with "
+          "triangles, or write mesh.element = \"quadratic\"",
+          file.string()));
+    return with_blood ? mesh : wall_alone(std::move(mesh));
   }
   TubeSpec spec;
   spec.radius = scene.number("geometry.radius");

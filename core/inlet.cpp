@@ -80,9 +80,12 @@ class PeriodicSpline final : public Waveform {
 
 }  // namespace
 
+double Inlet::growth_at(double time) const {
+  return time < ramp ? 0.5 * (1 - std::cos(std::numbers::pi * time / ramp)) : 1.0;
+}
+
 double Inlet::shape_at(double time) const {
-  const double value = shape->at(time);
-  return time < ramp ? 0.5 * (1 - std::cos(std::numbers::pi * time / ramp)) * value : value;
+  return growth_at(time) * shape->at(time);
 }
 
 std::vector<double> Inlet::jumps(double end) const {

@@ -25,7 +25,9 @@ struct Inlet {
   std::unique_ptr<const Waveform> shape;
   double ramp = 0;  ///< s; growth from 0 at the start, see time.ramp
 
-  /// shape(t), times (1 - cos(pi t / ramp))/2 while t < ramp.
+  /// (1 - cos(pi t / ramp))/2 while t < ramp, then 1.
+  double growth_at(double time) const;
+  /// growth_at(t) shape(t)
   double shape_at(double time) const;
   /// Times between 0 and `end` at which shape_at jumps, ascending.
   std::vector<double> jumps(double end) const;
