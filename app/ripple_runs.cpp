@@ -42,8 +42,8 @@ constexpr Case cases[] = {
     {"EXP1+EXP2-FS", "quadratic", 64, 3, 1e-3, 100}, {"EXP1+EXP2-FS", "quadratic", 128, 3, 1e-3, 100},
     {"EXP1+EXP2-FS", "quadratic", 64, 3, 1e-4, 100}, {"EXP1+EXP2-FS", "bubble", 64, 3, 1e-3, 100},
     {"EXP1+EXP2-FS", "bubble", 128, 3, 1e-3, 100},   {"EXP1+EXP2-FS", "bubble", 128, 3, 1e-4, 100},
-    {"EXP2", "quadratic", 64, 3, 1e-3, 45},          {"EXP2", "quadratic", 128, 3, 1e-3, 45},
-    {"EXP2", "quadratic", 128, 3, 1e-4, 45},         {"EXP2", "bubble", 128, 3, 1e-3, 45}};
+    {"EXP2", "quadratic", 64, 3, 1e-3, 45},          {"EXP2", "quadratic", 128, 8, 1e-3, 45},
+    {"EXP2", "quadratic", 128, 8, 1e-4, 45},         {"EXP2", "bubble", 128, 3, 1e-3, 45}};
 
 struct Line {
   std::vector<double> z, radius;
@@ -54,7 +54,7 @@ struct Outcome {
   double wave_length = 0;  ///< in thicknesses; 0 without ripples
   double onset = 0;        ///< s; 0 without ripples
   long steps = 0;
-  std::string failure;
+  std::string ended = "at 0.15 s";
 };
 
 /// Departure of the lumen's radius from a cubic in the middle of the artery, where the ends are not felt.
@@ -90,10 +90,19 @@ Outcome run(const std::filesystem::path& file, const Case& c) {
        "mesh.blood_cells=2", fmt::format("time.step={}", c.step), "time.beats=1", "time.ramp=0.05",
        fmt::format("inlet.period={}", end), "inlet.waveform=constant", fmt::format("inlet.flow={}", flow),
        "output.field_interval=0", fmt::format("output.profile_times=[{}]", fmt::join(times, ","))});
-  const Result result = axisym::AxisymTier().prepare(scene)->execute({});
+  // A run that has lost its smooth solution crawls: it is ended where it has shown that.
+  constexpr long most_iterations = 6000;
+  long iterations = 0;
+  RunControl control;
+  control.report = [&](const Progress& progress) { iterations = progress.newton_iterations; };
+  control.interrupted = [&] { return iterations > most_iterations; };
+  const Result result = axisym::AxisymTier().prepare(scene)->execute(control);
   Outcome outcome;
   outcome.steps = result.record.steps;
-  outcome.failure = result.record.failure;
+  const auto& rows = result.observables.find("time")->values;
+  if (!result.record.failure.empty()) outcome.ended = fmt::format("gave up at {:.3f} s", rows.back());
+  if (result.record.interrupted)
+    outcome.ended = fmt::format("stopped after {} Newton iterations at {:.3f} s", iterations, rows.back());
   const auto& time = result.along.find("time")->values;
   const auto& z = result.along.find("z")->values;
   const auto& radius = result.along.find("lumen_radius")->values;
@@ -127,17 +136,18 @@ std::string name(const Case& c) {
 
 std::string table(const std::vector<Outcome>& outcomes) {
   std::string text =
-      "\n| Law | mmHg | Element | Axial cells | Cell, h | Step, s | Ripples > 0.01 h from | Amplitude at the "
+      "\n| Law | mmHg | Element | Wall cells | Axial cells | Cell, h | Step, s | Ripples > 0.01 h from | "
+      "Amplitude at the "
       "end | Wave "
-      "length | Ended |\n|---|---|---|---|---|---|---|---|---|---|\n";
+      "length | Ended |\n|---|---|---|---|---|---|---|---|---|---|---|\n";
   for (std::size_t k = 0; k < outcomes.size(); ++k) {
     const Case& c = cases[k];
     const Outcome& o = outcomes[k];
-    text += fmt::format("| {} | {:g} | {} | {} | {:.1f} | {:g} | {} | {:.2g} h | {} | {} |\n", c.law,
-                        c.pressure, c.element, c.axial_cells, length / c.axial_cells / thickness, c.step,
-                        o.onset > 0 ? fmt::format("{:.3f} s", o.onset) : "–", o.amplitude,
-                        o.wave_length > 0 ? fmt::format("{:.1f} h", o.wave_length) : "–",
-                        o.failure.empty() ? "at 0.15 s" : "gave up");
+    text +=
+        fmt::format("| {} | {:g} | {} | {} | {} | {:.1f} | {:g} | {} | {:.2g} h | {} | {} |\n", c.law,
+                    c.pressure, c.element, c.wall_cells, c.axial_cells, length / c.axial_cells / thickness,
+                    c.step, o.onset > 0 ? fmt::format("{:.3f} s", o.onset) : "–", o.amplitude,
+                    o.wave_length > 0 ? fmt::format("{:.1f} h", o.wave_length) : "–", o.ended);
   }
   return text + "\n";
 }
@@ -196,7 +206,7 @@ int main(int count, char** arguments) {
       for (std::size_t k = 0; k < line.z.size(); ++k)
         csv += fmt::format("\"{}\",{:.6g},{:.6g}\n", name(c), line.z[k], line.radius[k]);
       fmt::print("  {} steps, amplitude {:.3g} h, wave length {:.3g} h {}\n", outcomes.back().steps,
-                 outcomes.back().amplitude, outcomes.back().wave_length, outcomes.back().failure);
+                 outcomes.back().amplitude, outcomes.back().wave_length, outcomes.back().ended);
       std::fflush(stdout);
     }
     write_whole(arguments[1],
