@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "core/inlet.hpp"
 #include "core/radial/wall_curve.hpp"
 #include "core/scene/seeded.hpp"
-#include "core/inlet.hpp"
 
 namespace tunica::lumped {
 
