@@ -89,7 +89,7 @@ class AxisymRun final : public TierRun {
         integrate(control, seconds);
       result_.record.converged = !result_.record.interrupted;
     } catch (const SolverFailure& failure) {
-      result_.record.failure = is_static_ ? std::string(failure.what())
+      result_.record.failure = is_static_ ? fmt::format("on the static state: {}", failure.what())
                                           : fmt::format("at t = {:.6g} s (beat {}): {}", simulation_.time(),
                                                         beat_at(simulation_.time()), failure.what());
     }
@@ -156,9 +156,10 @@ class AxisymRun final : public TierRun {
     record.steps = simulation_.step_counts().accepted + static_.load_steps;
     record.rejected_steps = simulation_.step_counts().rejected_by_error +
                             simulation_.step_counts().rejected_by_solver + static_.rejected;
-    record.newton_iterations = before_.newton + newton.iterations;
-    record.linear_iterations = before_.solves + newton.residuals;
-    record.resolution["factorisations"] = before_.factorisations + newton.factorisations;
+    record.newton_iterations = before_.newton + newton.iterations + static_.coarse.iterations;
+    record.linear_iterations = before_.solves + newton.residuals + static_.coarse.residuals;
+    record.resolution["factorisations"] =
+        before_.factorisations + newton.factorisations + static_.coarse.factorisations;
     record.resolution["factor_entries"] = simulation_.factor_entries();
     record.resolution["least_jacobian"] = simulation_.least_jacobian();
   }
@@ -208,7 +209,7 @@ class AxisymRun final : public TierRun {
   }
 
   std::vector<double> steady(const RunControl& control) {
-    return static_state(*setup_, simulation_.assembler(), simulation_.newton(), 0,
+    return static_state(scene_, *setup_, simulation_.assembler(), simulation_.newton(), 0,
                         1e-3 * setup_->resolution.newton_tolerance, control.interrupted, static_);
   }
 
@@ -350,7 +351,7 @@ class AxisymRun final : public TierRun {
     log_.restore(saved.state.at("events"), result_.events);
     const auto counts = saved.state.at("counts").get<std::vector<long>>();
     before_ = {counts.at(0), counts.at(1), counts.at(2)};
-    static_ = {static_cast<int>(counts.at(3)), static_cast<int>(counts.at(4))};
+    static_ = {static_cast<int>(counts.at(3)), static_cast<int>(counts.at(4)), {}};
   }
 
   const Scene& scene_;

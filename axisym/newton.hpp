@@ -25,6 +25,13 @@ struct NewtonReport {
 /// Counts since the solver was made.
 struct NewtonCounts {
   long iterations = 0, factorisations = 0, residuals = 0;
+
+  NewtonCounts& operator+=(const NewtonCounts& other) {
+    iterations += other.iterations;
+    factorisations += other.factorisations;
+    residuals += other.residuals;
+    return *this;
+  }
 };
 
 /// Newton's method for the coupled equations of one stage.

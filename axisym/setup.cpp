@@ -156,10 +156,14 @@ void estimate_sizes(const Scene& scene, Setup& setup, const Section& section) {
 }  // namespace
 
 std::unique_ptr<Setup> setup_of(const Scene& scene) {
+  return setup_of(scene, resolution(scene));
+}
+
+std::unique_ptr<Setup> setup_of(const Scene& scene, const Resolution& resolution) {
   auto setup = std::make_unique<Setup>();
   setup->inlet = inlet_from_scene(scene);
   setup->inlet_scale = setup->inlet.scale_key.empty() ? 1.0 : scene.number(setup->inlet.scale_key);
-  setup->resolution = resolution(scene);
+  setup->resolution = resolution;
   const bool is_static = scene.text("time.mode") == "static";
   if (is_static) setup->inlet.ramp = 0;
   // Blood at rest under pressure does nothing but press on the wall.

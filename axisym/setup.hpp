@@ -35,5 +35,7 @@ struct Setup {
 
 /// Throws InvalidInput for a scene that this tier cannot compute.
 std::unique_ptr<Setup> setup_of(const Scene& scene);
+/// The same with other numbers of cells than the scene asks for.
+std::unique_ptr<Setup> setup_of(const Scene& scene, const Resolution& resolution);
 
 }  // namespace tunica::axisym

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "axisym/prolong.hpp"
 #include "core/error.hpp"
 #include "core/radial/wall_curve.hpp"
 
@@ -79,34 +80,63 @@ class Past {
   std::vector<std::vector<double>> states_;
 };
 
-/// The steady state by backward Euler steps in time that grow until they are infinite, with the momentum of
-/// the wall taken out at each: for states from which Newton's method alone would not get there, such as a
-/// wall without stiffness at rest. True when it was reached.
-bool relax(const Assembler& assembler, Newton& newton, double time, double tolerance,
-           std::vector<double>& state) {
-  constexpr double first = 1e3, largest = 1e8, least = 1;  // 1/s: reciprocal steps
-  constexpr int most = 60;
-  const Layout& layout = assembler.layout();
-  std::vector<double> history(layout.size()), candidate;
-  double coefficient = first;
-  for (int k = 0; k < most; ++k) {
-    for (std::size_t e = 0; e < history.size(); ++e) history[e] = -coefficient * state[e];
-    for (const int node : layout.wall_nodes())
-      for (int c = 0; c < 2; ++c) history[layout.velocity(node, c)] = 0;
-    candidate = state;
-    const Stage stage{time, coefficient, history};
-    if (newton.solve(stage, candidate, {tolerance, 60}).converged) {
-      state = candidate;
-      if (coefficient == 0) return true;
-      coefficient = coefficient > least ? coefficient / 10 : 0;
-      continue;
-    }
-    newton.forget();
-    coefficient = coefficient == 0 ? 10 * least : 4 * coefficient;
-    if (coefficient > largest) return false;
+/// Steady states on one mesh under the loads that a setup has at the time.
+class Solver {
+ public:
+  Solver(const Setup& setup, const Assembler& assembler, Newton& newton, double time, double tolerance)
+      : setup_(setup), assembler_(assembler), newton_(newton), time_(time), tolerance_(tolerance) {}
+
+  const Assembler& assembler() const { return assembler_; }
+  Newton& newton() { return newton_; }
+
+  NewtonReport solve(std::vector<double>& state) {
+    return newton_.solve({time_, 0, {}}, state, {tolerance_, 100});
   }
-  return false;
-}
+
+  /// The steady state by backward Euler steps in time that grow until they are infinite, with the momentum of
+  /// the wall taken out at each: for states from which Newton's method alone would not get there, such as a
+  /// wall without stiffness at rest. `pressure` is what drives the wall. True when it was reached.
+  bool relax(double pressure, std::vector<double>& state) {
+    constexpr double largest = 1000, least = 1e-5;  // of the first coefficient
+    constexpr int most_steps = 60, most_iterations = 25;
+    const Layout& layout = assembler_.layout();
+    std::vector<double> history(layout.size()), candidate;
+    const double first = first_coefficient(pressure);
+    double coefficient = first, fall = 10;
+    newton_.forget();
+    for (int k = 0; k < most_steps; ++k) {
+      for (std::size_t e = 0; e < history.size(); ++e) history[e] = -coefficient * state[e];
+      for (const int node : layout.wall_nodes())
+        for (int c = 0; c < 2; ++c) history[layout.velocity(node, c)] = 0;
+      candidate = state;
+      if (newton_.solve({time_, coefficient, history}, candidate, {tolerance_, most_iterations}).converged) {
+        state = candidate;
+        if (coefficient == 0) return true;
+        coefficient = coefficient > least * first ? coefficient / fall : 0;
+        fall = std::min(2 * fall, 10.0);
+        continue;
+      }
+      newton_.forget();
+      coefficient = coefficient == 0 ? 10 * least * first : 4 * coefficient;
+      fall = 2;
+      if (coefficient > largest * first) return false;
+    }
+    return false;
+  }
+
+ private:
+  /// Reciprocal of a step in which tissue that resists with the pressure that drives it would move by a third
+  /// of its thickness: its inertia is then about as great as its stiffness, 1/s.
+  double first_coefficient(double pressure) const {
+    if (!setup_.ring) return 1e3;
+    return 3 * std::sqrt(std::abs(pressure) / setup_.problem.wall_density) / setup_.ring->ring().thickness;
+  }
+
+  const Setup& setup_;
+  const Assembler& assembler_;
+  Newton& newton_;
+  double time_, tolerance_;
+};
 
 /// Pressure in the lumen at mid-length under the full loads of a time, as far as it is known beforehand.
 double lumen_pressure(const Setup& setup, double time) {
@@ -117,19 +147,24 @@ double lumen_pressure(const Setup& setup, double time) {
   return outlet.pressure(time) + (outlet.resistance + outlet.proximal_resistance) * setup.inlet_value(time);
 }
 
-}  // namespace
+std::string tightest_cell(const Assembler& assembler) {
+  const LeastJacobian& least = assembler.least_jacobian();
+  if (least.cell < 0 || least.value >= 0.1) return {};
+  const Mesh& mesh = assembler.problem().mesh;
+  const auto& at = mesh.points[mesh.cells[least.cell].nodes[mesh.centre_node()]];
+  return fmt::format("; J = {:.3g} in cell {} at r = {:.4g}, z = {:.4g} cm", least.value, least.cell, at[0],
+                     at[1]);
+}
 
-std::vector<double> static_state(Setup& setup, const Assembler& assembler, Newton& newton, double time,
-                                 double tolerance, const std::function<bool()>& interrupted,
-                                 StaticReport& report) {
+/// From rest in steps of the load.
+std::vector<double> climb(Setup& setup, Solver& solver, double pressure,
+                          const std::function<bool()>& interrupted, StaticReport& report) {
   constexpr double step_pressure = 15 * mmhg;
-  constexpr double smallest = 1.0 / 4096;
   const RingMeasure measure(setup);
-  setup.load = 1;
-  const double pressure = lumen_pressure(setup, time);
   double increment = 1 / std::max(1.0, std::ceil(std::abs(pressure) / step_pressure));
+  const double smallest = increment / 100;
   Past past;
-  past.add(0, std::vector<double>(assembler.layout().size(), 0.0));
+  past.add(0, std::vector<double>(solver.assembler().layout().size(), 0.0));
   double reached = 0;
   while (reached < 1) {
     if (interrupted()) return {};
@@ -140,12 +175,11 @@ std::vector<double> static_state(Setup& setup, const Assembler& assembler, Newto
     NewtonReport solved;
     if (!past.is_first()) {
       state = past.extrapolate(size);
-      solved = newton.solve({time, 0, {}}, state, {tolerance, 100});
+      solved = solver.solve(state);
     }
     if (!solved.converged) {
-      newton.forget();
       state = past.last();
-      solved.converged = relax(assembler, newton, time, tolerance, state);
+      solved.converged = solver.relax(pressure, state);
     }
     if (solved.converged) {
       past.add(size, state);
@@ -154,25 +188,90 @@ std::vector<double> static_state(Setup& setup, const Assembler& assembler, Newto
       continue;
     }
     ++report.rejected;
-    newton.forget();
+    solver.newton().forget();
     increment /= 2;
     if (increment < smallest) {
-      const LeastJacobian& least = assembler.least_jacobian();
-      std::string where;
-      if (least.cell >= 0 && least.value < 0.1) {
-        const Mesh& mesh = assembler.problem().mesh;
-        const auto& at = mesh.points[mesh.cells[least.cell].nodes[mesh.centre_node()]];
-        where = fmt::format("; J = {:.3g} in cell {} at r = {:.4g}, z = {:.4g} cm", least.value, least.cell,
-                            at[0], at[1]);
-      }
       setup.load = 1;
       throw SolverFailure(fmt::format("no static equilibrium was found beyond {:.4g} of {:.4g} mmHg{}{}",
                                       reached * pressure / mmhg, pressure / mmhg,
-                                      solved.failure.empty() ? "" : ": " + solved.failure, where));
+                                      solved.failure.empty() ? "" : ": " + solved.failure,
+                                      tightest_cell(solver.assembler())));
     }
   }
-  setup.load = 1;
   return past.last();
+}
+
+/// Meshes that lead from a coarse one to that of a resolution, each of at most twice the cells in a
+/// direction; without the latter.
+std::vector<Resolution> coarser_meshes(const Resolution& finest, int layers) {
+  using Count = int Resolution::*;
+  struct Direction {
+    Count count;
+    int least;
+  };
+  const Direction directions[] = {{&Resolution::wall_cells, std::max(2, layers)},
+                                  {&Resolution::blood_cells, 2},
+                                  {&Resolution::axial_cells, 16}};
+  double ratio = 1;
+  for (const auto& [count, least] : directions)
+    ratio = std::max(ratio, static_cast<double>(finest.*count) / least);
+  const int levels = static_cast<int>(std::ceil(std::log2(ratio) - 1e-9));
+  std::vector<Resolution> meshes(levels, finest);
+  for (int k = 0; k < levels; ++k) {
+    for (const auto& [count, least] : directions) {
+      if (finest.*count <= least) continue;
+      const double share = static_cast<double>(k) / levels;
+      meshes[k].*count = static_cast<int>(std::lround(least * std::pow(finest.*count / least, share)));
+    }
+    meshes[k].axial_cells += meshes[k].axial_cells % 2;
+  }
+  return meshes;
+}
+
+/// From the state on a coarser mesh; empty when that does not lead there.
+std::vector<double> refine(const Assembler& coarser, const std::vector<double>& coarse_state, Solver& solver,
+                           double pressure) {
+  const auto guess = prolong(coarser, coarse_state, solver.assembler());
+  auto state = guess;
+  if (solver.solve(state).converged) return state;
+  state = guess;
+  if (!solver.relax(pressure, state)) state.clear();
+  return state;
+}
+
+}  // namespace
+
+std::vector<double> static_state(const Scene& scene, Setup& setup, const Assembler& assembler, Newton& newton,
+                                 double time, double tolerance, const std::function<bool()>& interrupted,
+                                 StaticReport& report) {
+  setup.load = 1;
+  const double pressure = lumen_pressure(setup, time);
+  std::vector<Resolution> meshes;
+  if (scene.text("geometry.kind") != "mesh")
+    meshes = coarser_meshes(setup.resolution, setup.problem.mesh.layers());
+  // As good as interpolation to the next mesh needs it.
+  constexpr double coarse_tolerance = 1e-5;
+  std::vector<double> state;
+  std::unique_ptr<Setup> coarser_setup;
+  std::unique_ptr<const Assembler> coarser;
+  for (const Resolution& mesh : meshes) {
+    auto next_setup = setup_of(scene, mesh);
+    auto next = std::make_unique<const Assembler>(next_setup->problem);
+    Newton solving(*next);
+    Solver solver(*next_setup, *next, solving, time, coarse_tolerance);
+    state = coarser ? refine(*coarser, state, solver, pressure)
+                    : climb(*next_setup, solver, pressure, interrupted, report);
+    report.coarse += solving.counts();
+    if (state.empty() || interrupted()) break;
+    coarser = std::move(next);
+    coarser_setup = std::move(next_setup);
+  }
+  if (interrupted()) return {};
+  Solver solver(setup, assembler, newton, time, tolerance);
+  if (!state.empty()) state = refine(*coarser, state, solver, pressure);
+  if (state.empty()) state = climb(setup, solver, pressure, interrupted, report);
+  setup.load = 1;
+  return state;
 }
 
 }  // namespace tunica::axisym
