@@ -32,7 +32,7 @@ TangentStability strip_on_mesh(const std::string& law, const std::string& tether
   Newton newton(assembler);
   StaticReport report;
   const auto state = static_state(
-      *setup, assembler, newton, 0, 1e-9, [] { return false; }, report);
+      scene, *setup, assembler, newton, 0, 1e-9, [] { return false; }, report);
   return tangent_stability(assembler, 0, state);
 }
 
