@@ -243,9 +243,9 @@ class AxisymRun final : public TierRun {
     };
   }
 
-  std::vector<double> steady(const std::function<bool()>& interrupted) {
+  std::vector<double> steady(const std::function<bool()>& interrupted, double time = 0) {
     phase_ = Phase::steady;
-    return static_state(scene_, *setup_, simulation_.assembler(), simulation_.newton(), 0,
+    return static_state(scene_, *setup_, simulation_.assembler(), simulation_.newton(), time,
                         1e-3 * setup_->resolution.newton_tolerance, interrupted, static_);
   }
 
@@ -253,8 +253,11 @@ class AxisymRun final : public TierRun {
   bool begin(const RunControl& control) {
     LimitCycle begin{std::vector<double>(simulation_.layout().size(), 0.0), {}};
     const std::string& start = scene_.text("time.start");
-    if (start != "rest") begin.state = steady(watched(control));
-    if (start == "periodic" && !begin.state.empty()) {
+    const bool periodic = start == "periodic";
+    // What has long been in its cycle is charged by the mean.
+    if (periodic) begin.state = steady(watched(control), setup_->inlet.time_of_mean());
+    if (start == "static") begin.state = steady(watched(control));
+    if (periodic && !begin.state.empty()) {
       phase_ = Phase::limit_cycle;
       begin = limit_cycle(simulation_, std::move(begin.state), setup_->inlet.period,
                           scene_.number("accuracy.tolerance"), watched(control), cycle_);
