@@ -276,6 +276,8 @@ std::string LumpedTier::refusal(const Scene& scene) const {
 }
 
 bool LumpedTier::suits(const Scene& scene) const {
+  // A pulse travels as a wave, which needs inertia.
+  if (scene.text("inlet.waveform") == "pulse" && !scene.flag("lumped.inertance")) return false;
   return scene.text("geometry.kind") == "cylinder" && scene.text("time.mode") == "transient";
 }
 
