@@ -5,11 +5,36 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/error.hpp"
 #include "core/observables/checkpoint.hpp"
 
 namespace tunica::axisym {
+
+namespace {
+
+/// Shares of the nodes in the volume of the wall, or in that of the blood where no wall is computed.
+std::vector<double> volume_shares(const Assembler& assembler) {
+  const Mesh& mesh = assembler.problem().mesh;
+  std::vector<double> shares(mesh.points.size(), 0.0);
+  const int count = counts(mesh.shape, assembler.problem().discretisation.element).displacement;
+  const auto add = [&](const auto& tables) {
+    for (const auto& table : tables)
+      for (const auto& point : table.points)
+        for (int k = 0; k < count; ++k)
+          shares[mesh.cells[table.cell].nodes[k]] += point.weight * point.displacement.lift[0][k];
+  };
+  if (mesh.has(Part::wall))
+    add(assembler.tables().wall);
+  else
+    add(assembler.tables().blood);
+  const double whole = std::accumulate(shares.begin(), shares.end(), 0.0);
+  for (double& share : shares) share /= whole;
+  return shares;
+}
+
+}  // namespace
 
 Simulation::Simulation(const Problem& problem, const SimulationOptions& options)
     : problem_(problem),
@@ -19,7 +44,8 @@ Simulation::Simulation(const Problem& problem, const SimulationOptions& options)
       scheme_(options.method, options.spectral_radius),
       control_(options.steps),
       candidate_(assembler_.layout().size()),
-      error_(assembler_.layout().size()) {
+      error_(assembler_.layout().size()),
+      shares_(volume_shares(assembler_)) {
   // What is still a hundredth of its size to come need not be computed to its own last digits.
   constexpr double small = 0.01;
   const auto& s = options.scales;
@@ -49,23 +75,21 @@ double Simulation::error_norm(std::span<const double> stage_value) {
   const Layout& layout = assembler_.layout();
   const auto& sizes = newton_.sizes();
   const auto& scales = options_.scales;
-  double norm = 0;
-  const auto include = [&](std::size_t entry, double size) {
-    if (size > 0) norm = std::max(norm, std::abs(error_[entry]) / (options_.tolerance * size));
-  };
   const bool moves = problem_.mesh.has(Part::wall);
-  const double displacement = std::max(sizes.displacement, scales.displacement);
-  const double velocity = std::max(sizes.velocity, scales.velocity);
-  for (int u = 0; u < layout.unknowns(); ++u) {
-    const std::size_t e = layout.entry(u);
-    if (e >= layout.pressure_begin()) continue;
-    if (moves && e < layout.velocity_begin() && layout.on_wall(static_cast<int>(e / 2)))
-      include(e, displacement);
-    else if (!moves && e >= layout.velocity_begin())
-      include(e, velocity);
+  const double size =
+      moves ? std::max(sizes.displacement, scales.displacement) : std::max(sizes.velocity, scales.velocity);
+  double sum = 0;
+  for (std::size_t n = 0; n < shares_.size(); ++n) {
+    const int node = static_cast<int>(n);
+    for (int c = 0; c < 2; ++c) {
+      const double e = error_[moves ? layout.displacement(node, c) : layout.velocity(node, c)];
+      sum += shares_[n] * e * e;
+    }
   }
+  double norm = size > 0 ? std::sqrt(sum) / (options_.tolerance * size) : 0;
   const double pressure = std::max(sizes.pressure, scales.pressure);
-  for (std::size_t e = layout.scalar_begin(); e < layout.size(); ++e) include(e, pressure);
+  for (std::size_t e = layout.scalar_begin(); e < layout.size() && pressure > 0; ++e)
+    norm = std::max(norm, std::abs(error_[e]) / (options_.tolerance * pressure));
   return norm;
 }
 
