@@ -64,7 +64,8 @@ Resolution resolution(const Scene& scene) {
   take("mesh.axial_cells", r.axial_cells);
   r.wall_cells = std::max(r.wall_cells, static_cast<int>(scene.count("wall.layers")));
   r.local_tolerance = 0.03 * tolerance;
-  r.newton_tolerance = 0.01 * r.local_tolerance;
+  // Ten times less is not seen in any observable.
+  r.newton_tolerance = 0.1 * r.local_tolerance;
   return r;
 }
 

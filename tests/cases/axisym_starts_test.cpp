@@ -126,14 +126,15 @@ TEST(LimitCycle, OfASlowOutletIsFoundInFewPeriods) {
   EXPECT_LT(difference(cycle, run_axisym(beating(slow_outlet({"time.beats=40"})))), 1e-2);
 }
 
-// Under constant inflow the state under the mean load is the limit cycle.
+// Under constant inflow the state under the mean load is the limit cycle, to Newton's tolerance in a step,
+// 3e-5.
 TEST(LimitCycle, OfConstantInflowIsTheSteadyState) {
   const Result cycle =
       run_axisym(beating({"inlet.waveform=constant", "time.start=periodic", "time.beats=1"}));
   EXPECT_LE(periods(cycle), 2);
   for (const char* column : columns) {
     const auto& all = values(cycle.observables, column);
-    for (const double value : all) ASSERT_NEAR(value / all.front(), 1, 1e-6) << column;
+    for (const double value : all) ASSERT_NEAR(value / all.front(), 1, 3e-5) << column;
   }
 }
 
