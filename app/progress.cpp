@@ -18,12 +18,24 @@ void ProgressDisplay::show(const Progress& progress) {
   using std::chrono::duration;
   const auto now = Clock::now();
   const double elapsed = duration<double>(now - start_).count();
+  // A run may have begun with a search for its first state, or go on from a checkpoint.
+  if (progress.beat > 0 && beats_from_ < 0) {
+    beats_start_ = now;
+    beats_from_ = progress.time;
+  }
   constexpr double silence = 0.5, between_updates = 0.2;
   if (elapsed < silence) return;
-  const double left = progress.time > 0 ? elapsed * (progress.end_time - progress.time) / progress.time : 0;
-  const std::string line = fmt::format(
-      "beat {}, t = {:.4f} of {:.4f} s, step {}, {} Newton iterations, {:.0f} s left", progress.beat,
-      progress.time, progress.end_time, progress.step, progress.newton_iterations, left);
+  std::string line;
+  if (progress.beat == 0) {
+    line = fmt::format("towards the first state, step {}, {} Newton iterations", progress.step,
+                       progress.newton_iterations);
+  } else {
+    const double left = duration<double>(now - beats_start_).count() * (progress.end_time - progress.time) /
+                        (progress.time - beats_from_);
+    line = fmt::format("beat {}, t = {:.4f} of {:.4f} s, step {}, {} Newton iterations, {:.0f} s left",
+                       progress.beat, progress.time, progress.end_time, progress.step,
+                       progress.newton_iterations, progress.time > beats_from_ ? left : 0.0);
+  }
   if (terminal_) {
     if (duration<double>(now - last_).count() < between_updates) return;
     fmt::print(stderr, "\r\x1b[K{}", line);

@@ -22,8 +22,9 @@ class ProgressDisplay {
   using Clock = std::chrono::steady_clock;
   bool quiet_, terminal_;
   bool shown_ = false;
-  int last_beat_ = 0;
-  Clock::time_point start_ = Clock::now(), last_ = start_;
+  int last_beat_ = -1;
+  Clock::time_point start_ = Clock::now(), last_ = start_, beats_start_ = start_;
+  double beats_from_ = -1;  ///< s of simulated time at beats_start_
 };
 
 }  // namespace tunica

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "axisym/failure.hpp"
 #include "axisym/fields.hpp"
 #include "axisym/limit_cycle.hpp"
 #include "axisym/observer.hpp"
@@ -93,12 +94,13 @@ class AxisymRun final : public TierRun {
         integrate(control, seconds);
       result_.record.converged = !result_.record.interrupted;
     } catch (const SolverFailure& failure) {
-      result_.record.failure = is_static_ ? fmt::format("on the static state: {}", failure.what())
-                                          : fmt::format("at t = {:.6g} s (beat {}): {}", simulation_.time(),
-                                                        beat_at(simulation_.time()), failure.what());
+      result_.record.failure = fmt::format("{}: {}", where(), failure.what());
+      if (phase_ != Phase::steady)
+        result_.record.failure += limit_of_wall(setup_->ring.get(), setup_->expected_pressure);
     }
     log_.store(result_, end_, result_.record.converged && !is_static_);
     count();
+    judge_steps();
     result_.record.solve_seconds = seconds();
     return std::move(result_);
   }
@@ -148,6 +150,20 @@ class AxisymRun final : public TierRun {
     record.remarks.insert(record.remarks.end(), setup_->remarks.begin(), setup_->remarks.end());
   }
 
+  /// Where the run stands, as in "the solver gave up ...".
+  std::string where() const {
+    const double time = simulation_.time();
+    switch (phase_) {
+      case Phase::steady:
+        return is_static_ ? "in the static state" : "at t = 0 s, in the static start";
+      case Phase::limit_cycle:
+        return fmt::format("at t = {:.6g} s of period {} on the way to the limit cycle", time,
+                           cycle_.periods + 1);
+      default:
+        return fmt::format("at t = {:.6g} s (beat {})", time, beat_at(time));
+    }
+  }
+
   /// 1 for the first beat; the end of the run belongs to the last.
   int beat_at(double time) const {
     return static_cast<int>(std::min(1 + std::floor(time / setup_->inlet.period),
@@ -178,13 +194,23 @@ class AxisymRun final : public TierRun {
   }
 
   void compute_static(const RunControl& control) {
-    const auto state = steady(control);
+    const auto state = steady(watched(control));
     if (state.empty()) {
       result_.record.interrupted = true;
       return;
     }
     sample(0, state, true, true, true);
     if (!setup_->problem.mesh.has(Part::blood)) judge_stability(state);
+  }
+
+  void judge_steps() {
+    const double step = is_static_ ? 0 : scene_.number("time.step");
+    const long divided = simulation_.step_counts().rejected_by_solver;
+    if (step > 0 && divided > 0)
+      result_.record.findings.push_back(fmt::format(
+          "time.step = {:g} s was too long for Newton's method and was divided {} times; reduce it, "
+          "or leave it out so that steps follow accuracy.tolerance",
+          step, divided));
   }
 
   void judge_stability(std::span<const double> state) {
@@ -212,21 +238,37 @@ class AxisymRun final : public TierRun {
                         : "tether.traction = \"normal\" is stable for the paper's laws"));
   }
 
-  std::vector<double> steady(const RunControl& control) {
-    return static_state(scene_, *setup_, simulation_.assembler(), simulation_.newton(), 0,
-                        1e-5 * setup_->resolution.local_tolerance, control.interrupted, static_);
+  /// What static states and limit cycles ask between steps: tells where the run stands.
+  std::function<bool()> watched(const RunControl& control) {
+    return [this, &control] {
+      control.report({0, 0, end_, simulation_.step_counts().accepted + static_.load_steps,
+                      simulation_.newton_counts().iterations});
+      return control.interrupted();
+    };
+  }
+
+  std::vector<double> steady(const std::function<bool()>& interrupted, double time = 0) {
+    phase_ = Phase::steady;
+    return static_state(scene_, *setup_, simulation_.assembler(), simulation_.newton(), time,
+                        1e-5 * setup_->resolution.local_tolerance, interrupted, static_);
   }
 
   /// False when the run is to end.
   bool begin(const RunControl& control) {
     LimitCycle begin{std::vector<double>(simulation_.layout().size(), 0.0), {}};
-    if (scene_.text("time.start") != "rest") begin.state = steady(control);
-    if (scene_.text("time.start") == "periodic" && !begin.state.empty()) {
+    const std::string& start = scene_.text("time.start");
+    const bool periodic = start == "periodic";
+    // What has long been in its cycle is charged by the mean.
+    if (periodic) begin.state = steady(watched(control), setup_->inlet.time_of_mean());
+    if (start == "static") begin.state = steady(watched(control));
+    if (periodic && !begin.state.empty()) {
+      phase_ = Phase::limit_cycle;
       begin = limit_cycle(simulation_, std::move(begin.state), setup_->inlet.period,
-                          scene_.number("accuracy.tolerance"), control.interrupted, cycle_);
+                          scene_.number("accuracy.tolerance"), watched(control), cycle_);
       result_.record.resolution["periods_to_limit_cycle"] = cycle_.periods;
     }
     if (begin.state.empty()) return false;
+    phase_ = Phase::beats;
     simulation_.start(0, std::move(begin.state), std::move(begin.rates));
     event_values_ = event_values(simulation_.state());
     return true;
@@ -240,11 +282,14 @@ class AxisymRun final : public TierRun {
 
   template <class Seconds>
   void integrate(const RunControl& control, const Seconds& seconds) {
-    if (control.resume)
+    if (control.resume) {
       restore(*control.resume);
-    else if (!begin(control)) {
-      result_.record.interrupted = true;
-      return;
+    } else {
+      if (!begin(control)) {
+        result_.record.interrupted = true;
+        return;
+      }
+      if (scene_.text("time.start") != "rest") control.save(checkpoint(seconds()));
     }
     std::vector<double> between(simulation_.layout().size());
     while (next_stop_ < stops_.size()) {
@@ -358,11 +403,14 @@ class AxisymRun final : public TierRun {
     static_ = {static_cast<int>(counts.at(3)), static_cast<int>(counts.at(4)), {}};
   }
 
+  enum class Phase { steady, limit_cycle, beats };
+
   const Scene& scene_;
   Clock::time_point began_;
   std::vector<std::string> warnings_;
   std::unique_ptr<Setup> setup_;
   bool is_static_;
+  Phase phase_ = Phase::beats;
   std::vector<observables::Stop> stops_;
   double end_;
   Simulation simulation_;

@@ -13,24 +13,58 @@ namespace tunica::axisym {
 
 namespace {
 
-/// Sizes that make the fields of a state comparable.
-std::vector<double> field_weights(const Layout& layout, const std::vector<double>& state) {
-  double sizes[3] = {0, 0, 0};
-  const auto field = [&](std::size_t e) {
-    return e < layout.velocity_begin() ? 0 : e < layout.pressure_begin() ? 1 : 2;
-  };
-  for (std::size_t e = 0; e < state.size(); ++e)
-    sizes[field(e)] = std::max(sizes[field(e)], std::abs(state[e]));
-  std::vector<double> weights(state.size());
-  for (std::size_t e = 0; e < state.size(); ++e) weights[e] = sizes[field(e)] > 0 ? 1 / sizes[field(e)] : 0.0;
-  return weights;
-}
+/// Least and greatest value of every entry in a period.
+class Range {
+ public:
+  explicit Range(const std::vector<double>& state) : least_(state), greatest_(state) {}
+
+  void include(const std::vector<double>& state) {
+    for (std::size_t e = 0; e < state.size(); ++e) {
+      least_[e] = std::min(least_[e], state[e]);
+      greatest_[e] = std::max(greatest_[e], state[e]);
+    }
+  }
+
+  /// Weights of what a vessel remembers from period to period: displacement of the wall (of a rigid pipe,
+  /// velocity of the blood) and charge of the outlet's compliance. All else follows within a period. They
+  /// are reciprocals of the greatest range in a period, of that field and of the pressure at the outlet, or
+  /// of a thousandth of the size of what hardly changes.
+  Eigen::VectorXd weights(const Assembler& assembler) const {
+    const Layout& layout = assembler.layout();
+    const bool moves = assembler.problem().mesh.has(Part::wall);
+    std::vector<std::size_t> field;
+    for (int u = 0; u < layout.unknowns(); ++u) {
+      const std::size_t e = layout.entry(u);
+      const bool is_wall = e < layout.velocity_begin() && layout.on_wall(static_cast<int>(e / 2));
+      const bool is_velocity = e >= layout.velocity_begin() && e < layout.pressure_begin();
+      if (moves ? is_wall : is_velocity) field.push_back(e);
+    }
+    Eigen::VectorXd weights = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(least_.size()));
+    const double of_field = reciprocal(field);
+    for (const std::size_t e : field) weights[static_cast<Eigen::Index>(e)] = of_field;
+    if (layout.windkessel_pressure)
+      weights[static_cast<Eigen::Index>(*layout.windkessel_pressure)] = reciprocal({*layout.outlet_pressure});
+    return weights;
+  }
+
+ private:
+  double reciprocal(const std::vector<std::size_t>& entries) const {
+    constexpr double hardly = 1e-3;
+    double range = 0;
+    for (const std::size_t e : entries)
+      range = std::max(
+          {range, greatest_[e] - least_[e], hardly * std::abs(least_[e]), hardly * std::abs(greatest_[e])});
+    return range > 0 ? 1 / range : 0;
+  }
+
+  std::vector<double> least_, greatest_;
+};
 
 }  // namespace
 
 LimitCycle limit_cycle(Simulation& simulation, std::vector<double> guess, double period, double tolerance,
                        const std::function<bool()>& interrupted, LimitCycleReport& report, int most) {
-  constexpr std::size_t depth = 5;
+  constexpr std::size_t depth = 3;
   using Vector = Eigen::VectorXd;
   const auto size = static_cast<Eigen::Index>(guess.size());
   Vector x = Eigen::Map<const Vector>(guess.data(), size);
@@ -38,38 +72,41 @@ LimitCycle limit_cycle(Simulation& simulation, std::vector<double> guess, double
   std::vector<double> rates;
   for (;;) {
     simulation.start(0, std::vector<double>(x.data(), x.data() + size), rates);
+    Range range(simulation.state());
     while (simulation.time() < period) {
       if (interrupted()) return {};
       simulation.advance(period);
+      range.include(simulation.state());
     }
     rates = simulation.rates();
     const Vector image = Eigen::Map<const Vector>(simulation.state().data(), size);
-    const auto weights = field_weights(simulation.layout(), simulation.state());
-    const Vector w = Eigen::Map<const Vector>(weights.data(), size);
-    const Vector difference = image - x;
+    const Vector weights = range.weights(simulation.assembler());
     ++report.periods;
-    // Pressures follow from the rest, and are disturbed for a few steps by rates that are not quite theirs.
-    const auto pressures = static_cast<Eigen::Index>(simulation.layout().pressure_begin());
-    report.change = difference.head(pressures).cwiseProduct(w.head(pressures)).lpNorm<Eigen::Infinity>();
-    if (report.change <= 0.1 * tolerance) return {simulation.state(), std::move(rates)};
-    if (report.periods >= most)
-      throw SolverFailure(fmt::format(
-          "no limit cycle within {} periods: the state still changes by {:.2g} of its size per period",
-          report.periods, report.change));
     images.push_back(image);
-    differences.push_back(difference);
+    differences.push_back(image - x);
     if (images.size() > depth) {
       images.erase(images.begin());
       differences.erase(differences.begin());
     }
-    const auto m = static_cast<Eigen::Index>(images.size());
     x = image;
-    if (m == 1) continue;
-    Eigen::MatrixXd changes(size, m - 1);
-    for (Eigen::Index k = 0; k + 1 < m; ++k)
-      changes.col(k) = w.cwiseProduct(differences[k + 1] - differences[k]);
-    const Vector mix = changes.colPivHouseholderQr().solve(w.cwiseProduct(difference));
-    for (Eigen::Index k = 0; k + 1 < m; ++k) x -= mix[k] * (images[k + 1] - images[k]);
+    const auto m = static_cast<Eigen::Index>(images.size());
+    if (m > 1) {
+      Eigen::MatrixXd changes(size, m - 1);
+      for (Eigen::Index k = 0; k + 1 < m; ++k)
+        changes.col(k) = weights.cwiseProduct(differences[k + 1] - differences[k]);
+      const Vector mix = changes.colPivHouseholderQr().solve(weights.cwiseProduct(differences.back()));
+      for (Eigen::Index k = 0; k + 1 < m; ++k) x -= mix[k] * (images[k + 1] - images[k]);
+    }
+    const auto norm = [&](const Vector& v) { return v.cwiseProduct(weights).lpNorm<Eigen::Infinity>(); };
+    // What changes slowly may still be far from its end. The extrapolation knows how far, but from two
+    // periods alone it cannot tell that from what dies at once.
+    const double change = norm(differences.back());
+    report.change = std::max(change, m > 2 ? norm(x - image) : 10 * change);
+    if (report.change <= 0.1 * tolerance) return {simulation.state(), std::move(rates)};
+    if (report.periods >= most)
+      throw SolverFailure(
+          fmt::format("no limit cycle within {} periods: the state is still {:.2g} of its range away from it",
+                      report.periods, report.change));
   }
 }
 

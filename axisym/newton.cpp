@@ -8,6 +8,12 @@
 
 namespace tunica::axisym {
 
+namespace {
+
+constexpr const char* singular = "the derivative is singular";
+
+}  // namespace
+
 Newton::Newton(const Assembler& assembler)
     : assembler_(assembler),
       matrix_(assembler.pattern()),
@@ -83,6 +89,18 @@ double Newton::norm(const Norms& norms) {
   return std::isnan(sum) ? sum : std::max({norms[0], norms[1], norms[2]});
 }
 
+std::size_t Newton::greatest(const std::vector<double>& correction) const {
+  int found = 0;
+  for (int u = 1; u < assembler_.layout().unknowns(); ++u)
+    if (std::abs(correction[u]) * weights_[u] > std::abs(correction[found]) * weights_[found]) found = u;
+  return assembler_.layout().entry(found);
+}
+
+const char* Newton::flaw() const {
+  return assembler_.least_jacobian().value > 0 ? "makes forces that are not finite"
+                                               : "turns cells inside out";
+}
+
 double Newton::inner(const std::vector<double>& a, const std::vector<double>& b) const {
   double sum = 0;
   for (std::size_t u = 0; u < a.size(); ++u) sum += a[u] * b[u] * weights_[u] * weights_[u];
@@ -98,7 +116,7 @@ NewtonReport Newton::solve(const Stage& stage, std::span<double> y, const Newton
   };
   std::vector<double> begin(y.begin(), y.end());
   if (!evaluate(stage, y)) {
-    report.failure = "the guess turns cells inside out";
+    report.failure = fmt::format("the guess {}", flaw());
     return report;
   }
   if (std::all_of(residual_.begin(), residual_.end(), [](double r) { return r == 0; })) return converge();
@@ -113,7 +131,7 @@ NewtonReport Newton::solve(const Stage& stage, std::span<double> y, const Newton
   }
   while (report.iterations < options.most_iterations) {
     if (!factorise(stage, y)) {
-      report.failure = "the derivative is singular";
+      report.failure = singular;
       return report;
     }
     bool converged = false;
@@ -191,13 +209,21 @@ bool Newton::damped_step(const Stage& stage, std::span<double> y, const NewtonOp
   constexpr double smallest = 1.0 / 256;
   std::vector<double> step, simplified;
   correct(step);
+  weigh(y);
+  if (!std::isfinite(norm(norms(step)))) {
+    report.failure = singular;
+    return false;
+  }
+  report.worst = greatest(step);
   const std::vector<double> from(y.begin(), y.end());
+  bool fit = true;
   ++counts_.iterations;
   ++report.iterations;
   for (double factor = 1; factor >= smallest; factor /= 2) {
     std::copy(from.begin(), from.end(), y.begin());
     add(y, factor, step);
-    if (!evaluate(stage, y)) continue;
+    fit = evaluate(stage, y);
+    if (!fit) continue;
     correct(simplified);
     weigh(y);
     const double size = norm(norms(step)), next = norm(norms(simplified));
@@ -210,9 +236,8 @@ bool Newton::damped_step(const Stage& stage, std::span<double> y, const NewtonOp
     }
     if (next <= (1 - factor / 4) * size || size <= options.tolerance) return true;
   }
-  const LeastJacobian& least = assembler_.least_jacobian();
-  report.failure = least.value > 0 ? "no step towards a solution was found"
-                                   : "every step towards a solution turns cells inside out";
+  report.failure =
+      fit ? "no step towards a solution was found" : fmt::format("every step towards a solution {}", flaw());
   return false;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,8 @@ struct NewtonReport {
   bool converged = false;
   int iterations = 0;
   std::string failure;  ///< why it did not converge
+  /// Entry of the state that the last iteration wanted to change most, relative to the size of its field.
+  std::optional<std::size_t> worst;
 };
 
 /// Counts since the solver was made.
@@ -78,6 +81,9 @@ class Newton {
   using Norms = std::array<double, 3>;  ///< greatest scaled entry of displacement, velocity and pressure
   Norms norms(const std::vector<double>& correction) const;
   static double norm(const Norms& norms);
+  std::size_t greatest(const std::vector<double>& correction) const;
+  /// Why the latest residual is of no use.
+  const char* flaw() const;
   double inner(const std::vector<double>& a, const std::vector<double>& b) const;
   Outcome iterate(const Stage& stage, std::span<double> y, const NewtonOptions& options,
                   NewtonReport& report);

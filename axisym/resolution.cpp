@@ -19,6 +19,21 @@ int cells(double at_one_percent, double order, double tolerance) {
   return static_cast<int>(std::ceil(at_one_percent * std::pow(0.01 / tolerance, 1 / order) - 1e-9));
 }
 
+/// Nodes that a direct solver still copes with (tens of gigabytes).
+constexpr double most_nodes = 1e6;
+/// Ratio of the longest to the shortest cell along the artery that numbers still resolve.
+constexpr double steepest_grading = 1e6;
+
+void require_solvable(const Scene& scene, double nodes) {
+  if (nodes <= most_nodes) return;
+  const std::string advice = scene.text("geometry.kind") == "mesh"
+                                 ? "take a coarser geometry.file"
+                                 : "raise accuracy.tolerance, or set mesh.axial_cells, mesh.wall_cells and "
+                                   "mesh.blood_cells to fewer";
+  throw InvalidInput(fmt::format("the mesh has {:.3g} nodes, and this tier solves for at most {:g}; {}",
+                                 nodes, most_nodes, advice));
+}
+
 /// What is left of a mesh without its blood; nodes that only the blood had stay and are used by nothing.
 Mesh wall_alone(Mesh mesh) {
   if (!mesh.has(Part::wall)) return mesh;
@@ -74,6 +89,7 @@ Mesh mesh_of(const Scene& scene, const Resolution& resolution, bool with_blood) 
     const auto file = scene.folder() / scene.text("geometry.file");
     Mesh mesh = read_gmsh(file);
     check(mesh, {scene.number("geometry.radius"), file.string()});
+    require_solvable(scene, static_cast<double>(mesh.points.size()));
     if (scene.text("mesh.element") == "bubble" && mesh.shape != CellShape::triangle)
       throw InvalidInput(fmt::format(
           "{}: mesh.element = \"bubble\" needs triangles, and this mesh has quadrilaterals; mesh it with "
@@ -95,6 +111,13 @@ Mesh mesh_of(const Scene& scene, const Resolution& resolution, bool with_blood) 
   spec.blood = with_blood;
   if (scene.text("geometry.ends") == "clamped")
     spec.end_grading = bending_layer_grading(spec.radius, thickness, spec.length);
+  if (spec.end_grading > steepest_grading)
+    throw InvalidInput(
+        fmt::format("geometry.length = {:g} cm is {:.3g} times geometry.radius, too long for a mesh that "
+                    "also resolves how the clamped ends bend the wall; shorten it, or write geometry.ends = "
+                    "\"sliding\" and inlet.profile = \"natural\"",
+                    spec.length, spec.length / spec.radius));
+  require_solvable(scene, (2.0 * (spec.blood_cells + spec.wall_cells) + 1) * (2.0 * spec.axial_cells + 1));
   const bool triangles = scene.text("mesh.element") == "bubble" || scene.text("mesh.cell") == "triangle";
   spec.shape = triangles ? CellShape::triangle : CellShape::quadrilateral;
   return structured_tube(spec);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "axisym/failure.hpp"
 #include "core/error.hpp"
 #include "core/observables/checkpoint.hpp"
 
@@ -59,11 +60,12 @@ void Simulation::start(double time, std::vector<double> state, std::vector<doubl
   }
   scheme_.start(time, std::move(state), std::move(rates));
   control_.restart();
+  newton_.forget();
   step_begin_ = time;
 }
 
 bool Simulation::at_milestone() const {
-  return control_.counts().accepted % options_.milestone == 0;
+  return control_.counts().accepted > 0 && control_.counts().accepted % options_.milestone == 0;
 }
 
 bool Simulation::jumps_at(double time) const {
@@ -129,19 +131,9 @@ void Simulation::advance(double stop) {
 }
 
 void Simulation::give_up(const NewtonReport& report) const {
-  const LeastJacobian& least = assembler_.least_jacobian();
-  std::string where;
-  if (least.cell >= 0 && least.value < 0.1) {
-    const Cell& cell = problem_.mesh.cells[least.cell];
-    const auto& centre = problem_.mesh.points[cell.nodes[problem_.mesh.centre_node()]];
-    where = fmt::format("; the {} is most compressed, J = {:.3g}, in cell {} at r = {:.4g}, z = {:.4g} cm",
-                        cell.part == Part::blood ? "blood's mesh" : "wall", least.value, least.cell,
-                        centre[0], centre[1]);
-    if (cell.part == Part::blood) where += " (mesh.motion = \"stiffened\" bears more)";
-  }
-  throw SolverFailure(fmt::format("the smallest time step, {:.2g} s, was not solved: {}{}",
+  throw SolverFailure(fmt::format("the smallest time step, {:.2g} s, was not solved: {}",
                                   control_.options().minimum,
-                                  report.converged ? "its error is too large" : report.failure, where));
+                                  report.converged ? "its error is too large" : explain(assembler_, report)));
 }
 
 namespace {

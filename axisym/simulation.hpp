@@ -32,7 +32,7 @@ class Simulation {
   Simulation(const Problem& problem, const SimulationOptions& options);
 
   /// Begins at `time` from a state and its rates; without rates they are zero, and the state is made to agree
-  /// with that.
+  /// with that. What follows depends on nothing that came before but the sizes of the fields.
   void start(double time, std::vector<double> state, std::vector<double> rates = {});
 
   /// Takes one step that does not go beyond `stop`; steps whose error is too large and steps that are not

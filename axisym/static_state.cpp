@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "axisym/failure.hpp"
 #include "axisym/prolong.hpp"
 #include "core/error.hpp"
 #include "core/radial/wall_curve.hpp"
@@ -90,38 +91,45 @@ class Solver {
   Newton& newton() { return newton_; }
 
   NewtonReport solve(std::vector<double>& state) {
-    return newton_.solve({time_, 0, {}}, state, {tolerance_, 100});
+    return newton_.solve({time_, 0, {}}, state, {tolerance_, 60});
   }
 
   /// The steady state by backward Euler steps in time that grow until they are infinite, with the momentum of
   /// the wall taken out at each: for states from which Newton's method alone would not get there, such as a
-  /// wall without stiffness at rest. `pressure` is what drives the wall. True when it was reached.
-  bool relax(double pressure, std::vector<double>& state) {
+  /// wall without stiffness at rest. `pressure` is what drives the wall. Reports the last step that was not
+  /// solved when it is not reached.
+  NewtonReport relax(double pressure, const std::function<bool()>& interrupted, std::vector<double>& state) {
     constexpr double largest = 1000, least = 1e-5;  // of the first coefficient
-    constexpr int most_steps = 60, most_iterations = 25;
+    // A wall that gives way moves on for ever; one that comes to rest takes a third of these.
+    constexpr int most_in_all = 600, most_iterations = 25;
     const Layout& layout = assembler_.layout();
     std::vector<double> history(layout.size()), candidate;
     const double first = first_coefficient(pressure);
     double coefficient = first, fall = 10;
     newton_.forget();
-    for (int k = 0; k < most_steps; ++k) {
+    NewtonReport unsolved;
+    unsolved.failure = "the state does not come to rest";
+    for (int iterations = 0; iterations < most_in_all && coefficient <= largest * first && !interrupted();) {
       for (std::size_t e = 0; e < history.size(); ++e) history[e] = -coefficient * state[e];
       for (const int node : layout.wall_nodes())
         for (int c = 0; c < 2; ++c) history[layout.velocity(node, c)] = 0;
       candidate = state;
-      if (newton_.solve({time_, coefficient, history}, candidate, {tolerance_, most_iterations}).converged) {
+      const auto report =
+          newton_.solve({time_, coefficient, history}, candidate, {tolerance_, most_iterations});
+      iterations += std::max(1, report.iterations);
+      if (report.converged) {
         state = candidate;
-        if (coefficient == 0) return true;
+        if (coefficient == 0) return report;
         coefficient = coefficient > least * first ? coefficient / fall : 0;
         fall = std::min(2 * fall, 10.0);
         continue;
       }
+      unsolved = report;
       newton_.forget();
       coefficient = coefficient == 0 ? 10 * least * first : 4 * coefficient;
       fall = 2;
-      if (coefficient > largest * first) return false;
     }
-    return false;
+    return unsolved;
   }
 
  private:
@@ -147,30 +155,21 @@ double lumen_pressure(const Setup& setup, double time) {
   return outlet.pressure(time) + (outlet.resistance + outlet.proximal_resistance) * setup.inlet_value(time);
 }
 
-std::string tightest_cell(const Assembler& assembler) {
-  const LeastJacobian& least = assembler.least_jacobian();
-  if (least.cell < 0 || least.value >= 0.1) return {};
-  const Mesh& mesh = assembler.problem().mesh;
-  const auto& at = mesh.points[mesh.cells[least.cell].nodes[mesh.centre_node()]];
-  return fmt::format("; J = {:.3g} in cell {} at r = {:.4g}, z = {:.4g} cm", least.value, least.cell, at[0],
-                     at[1]);
-}
-
 /// From rest in steps of the load.
 std::vector<double> climb(Setup& setup, Solver& solver, double pressure,
                           const std::function<bool()>& interrupted, StaticReport& report) {
   constexpr double step_pressure = 15 * mmhg;
   const RingMeasure measure(setup);
   double increment = 1 / std::max(1.0, std::ceil(std::abs(pressure) / step_pressure));
-  const double smallest = increment / 100;
+  const double first = increment, smallest = increment / 32;
   Past past;
   past.add(0, std::vector<double>(solver.assembler().layout().size(), 0.0));
   double reached = 0;
-  while (reached < 1) {
-    if (interrupted()) return {};
+  int even = 0;  // states found with this increment
+  while (reached < 1 && !interrupted()) {
     const double load = reached + increment > 1 - 1e-9 ? 1.0 : reached + increment;
     setup.load = load;
-    const double size = measure.at(load * pressure);
+    const double size = pressure == 0 ? load : measure.at(load * pressure);
     std::vector<double> state;
     NewtonReport solved;
     if (!past.is_first()) {
@@ -179,26 +178,31 @@ std::vector<double> climb(Setup& setup, Solver& solver, double pressure,
     }
     if (!solved.converged) {
       state = past.last();
-      solved.converged = solver.relax(pressure, state);
+      solved = solver.relax(pressure, interrupted, state);
     }
     if (solved.converged) {
       past.add(size, state);
       reached = load;
       ++report.load_steps;
+      if (++even == 2) {
+        increment = std::min(2 * increment, first);
+        even = 0;
+      }
       continue;
     }
+    if (interrupted()) break;
     ++report.rejected;
     solver.newton().forget();
     increment /= 2;
-    if (increment < smallest) {
-      setup.load = 1;
-      throw SolverFailure(fmt::format("no static equilibrium was found beyond {:.4g} of {:.4g} mmHg{}{}",
-                                      reached * pressure / mmhg, pressure / mmhg,
-                                      solved.failure.empty() ? "" : ": " + solved.failure,
-                                      tightest_cell(solver.assembler())));
-    }
+    even = 0;
+    if (increment >= smallest) continue;
+    const std::string why = explain(solver.assembler(), solved) + limit_of_wall(setup.ring.get(), pressure);
+    setup.load = 1;
+    throw SolverFailure(
+        fmt::format("no static equilibrium was found beyond {:.3g} % of the load, {:.4g} of {:.4g} mmHg: {}",
+                    100 * reached, reached * pressure / mmhg, pressure / mmhg, why));
   }
-  return past.last();
+  return reached < 1 ? std::vector<double>{} : past.last();
 }
 
 /// Meshes that lead from a coarse one to that of a resolution, each of at most twice the cells in a
@@ -230,12 +234,12 @@ std::vector<Resolution> coarser_meshes(const Resolution& finest, int layers) {
 
 /// From the state on a coarser mesh; empty when that does not lead there.
 std::vector<double> refine(const Assembler& coarser, const std::vector<double>& coarse_state, Solver& solver,
-                           double pressure) {
+                           double pressure, const std::function<bool()>& interrupted) {
   const auto guess = prolong(coarser, coarse_state, solver.assembler());
   auto state = guess;
   if (solver.solve(state).converged) return state;
   state = guess;
-  if (!solver.relax(pressure, state)) state.clear();
+  if (!solver.relax(pressure, interrupted, state).converged) state.clear();
   return state;
 }
 
@@ -259,8 +263,13 @@ std::vector<double> static_state(const Scene& scene, Setup& setup, const Assembl
     auto next = std::make_unique<const Assembler>(next_setup->problem);
     Newton solving(*next);
     Solver solver(*next_setup, *next, solving, time, coarse_tolerance);
-    state = coarser ? refine(*coarser, state, solver, pressure)
-                    : climb(*next_setup, solver, pressure, interrupted, report);
+    try {
+      state = coarser ? refine(*coarser, state, solver, pressure, interrupted)
+                      : climb(*next_setup, solver, pressure, interrupted, report);
+    } catch (const SolverFailure&) {
+      report.coarse += solving.counts();
+      throw;
+    }
     report.coarse += solving.counts();
     if (state.empty() || interrupted()) break;
     coarser = std::move(next);
@@ -268,7 +277,7 @@ std::vector<double> static_state(const Scene& scene, Setup& setup, const Assembl
   }
   if (interrupted()) return {};
   Solver solver(setup, assembler, newton, time, tolerance);
-  if (!state.empty()) state = refine(*coarser, state, solver, pressure);
+  if (!state.empty()) state = refine(*coarser, state, solver, pressure, interrupted);
   if (state.empty()) state = climb(setup, solver, pressure, interrupted, report);
   setup.load = 1;
   return state;

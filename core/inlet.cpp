@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "core/scene/waveform_file.hpp"
 
@@ -102,6 +103,17 @@ double Inlet::greatest_shape() const {
   constexpr int samples = 64;
   for (int k = 0; k < samples; ++k) greatest = std::max(greatest, std::abs(shape->at(period * k / samples)));
   return greatest;
+}
+
+double Inlet::time_of_mean() const {
+  constexpr int samples = 256;
+  std::vector<double> values;
+  for (int k = 0; k < samples; ++k) values.push_back(shape->at(period * k / samples));
+  const double mean = std::accumulate(values.begin(), values.end(), 0.0) / samples;
+  const auto nearest = std::min_element(values.begin(), values.end(), [&](double a, double b) {
+    return std::abs(a - mean) < std::abs(b - mean);
+  });
+  return period * static_cast<double>(nearest - values.begin()) / samples;
 }
 
 Inlet inlet_from_scene(const Scene& scene) {

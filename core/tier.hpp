@@ -15,7 +15,7 @@ namespace tunica {
 
 /// Where a run stands, told to the caller now and then.
 struct Progress {
-  int beat = 0;         ///< 1 for the first
+  int beat = 0;         ///< 1 for the first, 0 on the way to the state that the run starts from
   double time = 0;      ///< s of simulated time
   double end_time = 0;  ///< s
   long step = 0;

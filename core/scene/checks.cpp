@@ -16,6 +16,8 @@ namespace {
 
 /// Rows of observables.csv that still fit into memory and a plot (a few gigabytes of text).
 constexpr double most_rows = 5e6;
+/// Fixed steps that some computer still takes within a week.
+constexpr double most_steps = 1e7;
 /// Pictures in fields/ that still fit there (also a few gigabytes).
 constexpr double most_field_times = 1e5;
 
@@ -79,6 +81,16 @@ void SceneReader::check_times() const {
     refuse("inlet.duration",
            fmt::format("inlet.duration = {:g} s is no shorter than inlet.period = {:g} s; reduce it",
                        scene_.number("inlet.duration"), period));
+  const double step = scene_.has("time.step") ? scene_.number("time.step") : 0;
+  if (step >= period)
+    refuse("time.step", fmt::format("time.step = {:g} s is no shorter than the period {:g} s; reduce it, or "
+                                    "write 0 for steps that follow accuracy.tolerance",
+                                    step, period));
+  if (step > 0 && total / step > most_steps)
+    refuse("time.step",
+           fmt::format("time.step = {:g} s over time.beats x inlet.period = {:g} s makes {:.3g} steps, more "
+                       "than {:g}; increase it",
+                       step, total, total / step, most_steps));
   const double interval = scene_.number("output.interval");
   if (interval > total)
     refuse("output.interval",

@@ -18,7 +18,11 @@ struct BadScene {
   std::vector<std::string> words;      ///< what the message must contain: the place, the key, the remedy
 };
 
+/// Scenes that no tier takes: their file or their values are wrong.
 const std::vector<BadScene>& bad_scenes();
+/// Scenes that are sound by themselves, but not for the axisymmetric tier, with mesh files that are not for
+/// them.
+const std::vector<BadScene>& bad_axisym_scenes();
 
 /// GoogleTest would print the bytes otherwise.
 inline void PrintTo(const BadScene& scene, std::ostream* stream) {
