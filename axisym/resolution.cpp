@@ -14,6 +14,10 @@ namespace tunica::axisym {
 
 namespace {
 
+/// How much smaller than the bending layers need cells are at the ends, and cells at the interface than at
+/// the axis.
+constexpr double corner_grading = 16, interface_grading = 60;
+
 /// Cells for a tolerance when an error of 1 % takes `at_one_percent`, and errors fall with the given order.
 int cells(double at_one_percent, double order, double tolerance) {
   return static_cast<int>(std::ceil(at_one_percent * std::pow(0.01 / tolerance, 1 / order) - 1e-9));
@@ -109,14 +113,20 @@ Mesh mesh_of(const Scene& scene, const Resolution& resolution, bool with_blood) 
   spec.wall_cells = resolution.wall_cells;
   spec.axial_cells = resolution.axial_cells;
   spec.blood = with_blood;
-  if (scene.text("geometry.ends") == "clamped")
-    spec.end_grading = bending_layer_grading(spec.radius, thickness, spec.length);
-  if (spec.end_grading > steepest_grading)
-    throw InvalidInput(
-        fmt::format("geometry.length = {:g} cm is {:.3g} times geometry.radius, too long for a mesh that "
-                    "also resolves how the clamped ends bend the wall; shorten it, or write geometry.ends = "
-                    "\"sliding\" and inlet.profile = \"natural\"",
-                    spec.length, spec.length / spec.radius));
+  if (scene.text("geometry.ends") == "clamped") {
+    const double bending = bending_layer_grading(spec.radius, thickness, spec.length);
+    if (bending > steepest_grading)
+      throw InvalidInput(
+          fmt::format("geometry.length = {:g} cm is {:.3g} times geometry.radius, too long for a mesh that "
+                      "also resolves how the clamped ends bend the wall; shorten it, or write geometry.ends "
+                      "= \"sliding\" and inlet.profile = \"natural\"",
+                      spec.length, spec.length / spec.radius));
+    // Strain and pressure are singular where the lumen ends at the clamped faces (as the distance to the
+    // power -0.4 for the wall, -0.5 for the blood), and the loss of pressure in the narrow ends depends on
+    // what becomes of them: cells shrink towards there by the same factor along both directions.
+    spec.end_grading = corner_grading * bending;
+    spec.interface_grading = interface_grading;
+  }
   require_solvable(scene, (2.0 * (spec.blood_cells + spec.wall_cells) + 1) * (2.0 * spec.axial_cells + 1));
   const bool triangles = scene.text("mesh.element") == "bubble" || scene.text("mesh.cell") == "triangle";
   spec.shape = triangles ? CellShape::triangle : CellShape::quadrilateral;

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "verification/elastic_tube_runs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "core/error.hpp"
+
+namespace tunica::verification {
+
+double TubeTrace::at(double when) const {
+  const auto next = std::upper_bound(time.begin(), time.end(), when);
+  if (next == time.begin()) return displacement.front();
+  if (next == time.end()) return displacement.back();
+  const auto k = static_cast<std::size_t>(next - time.begin());
+  return std::lerp(displacement[k - 1], displacement[k], (when - time[k - 1]) / (time[k] - time[k - 1]));
+}
+
+TubePeak peak_of(const TubeTrace& trace) {
+  const auto greatest = std::max_element(trace.displacement.begin(), trace.displacement.end());
+  if (greatest == trace.displacement.begin() || greatest + 1 >= trace.displacement.end())
+    throw std::logic_error("peak_of: the displacement has no peak");
+  const auto k = static_cast<std::size_t>(greatest - trace.displacement.begin());
+  // Newton's form through the three points; their times need not be equidistant.
+  const double t0 = trace.time[k - 1], t1 = trace.time[k], t2 = trace.time[k + 1];
+  const double u0 = trace.displacement[k - 1], u1 = trace.displacement[k], u2 = trace.displacement[k + 1];
+  const double slope = (u1 - u0) / (t1 - t0), curve = ((u2 - u1) / (t2 - t1) - slope) / (t2 - t0);
+  const double time = curve < 0 ? 0.5 * (t0 + t1) - slope / (2 * curve) : t1;
+  return {time, u0 + slope * (time - t0) + curve * (time - t0) * (time - t1)};
+}
+
+TubeRun run_tube(const Tier& tier, const std::filesystem::path& scene, std::vector<std::string> overrides) {
+  overrides.emplace_back("output.field_interval=0");
+  const Scene tube = read_scene(scene, overrides);
+  const Result result = tier.prepare(tube)->execute({});
+  if (!result.record.failure.empty()) throw SolverFailure(result.record.failure);
+  TubeRun run{};
+  run.trace.time = result.observables.find("time")->values;
+  constexpr double mm = 10;  // in a cm
+  for (const double u : result.observables.find("radial_displacement.P1")->values)
+    run.trace.displacement.push_back(mm * u);
+  run.peak = peak_of(run.trace);
+  run.unknowns = result.record.unknowns;
+  run.steps = result.record.steps;
+  run.seconds = result.record.solve_seconds;
+  return run;
+}
+
+double greatest_difference(const TubeTrace& trace, const TubeTrace& reference, double until) {
+  double greatest = 0;
+  for (std::size_t k = 0; k < reference.time.size() && reference.time[k] <= until; ++k)
+    greatest = std::max(greatest, std::abs(trace.at(reference.time[k]) - reference.displacement[k]));
+  return greatest;
+}
+
+double extrapolated(double coarse, double fine, double order) {
+  return fine + (fine - coarse) / (std::pow(2.0, order) - 1);
+}
+
+double observed_order(double coarse, double middle, double fine) {
+  return std::log2((middle - coarse) / (fine - middle));
+}
+
+}  // namespace tunica::verification

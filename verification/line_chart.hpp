@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace tunica::verification {
+
+/// A line through points, or the points alone as marks.
+struct Series {
+  std::string name;  ///< in the legend
+  std::vector<double> x, y;
+  bool line = true;
+  bool marks = false;
+};
+
+struct LineChart {
+  std::string title, x_label, y_label;
+  std::vector<Series> series;
+  bool log_x = false;
+};
+
+/// Charts beside each other as one SVG picture, as text.
+/// Throws std::logic_error for a chart without points and for x <= 0 on a logarithmic axis.
+std::string svg(const std::vector<LineChart>& charts);
+
+}  // namespace tunica::verification
