@@ -97,6 +97,10 @@ class AxisymRun final : public TierRun {
       result_.record.failure = fmt::format("{}: {}", where(), failure.what());
       if (phase_ != Phase::steady)
         result_.record.failure += limit_of_wall(setup_->ring.get(), setup_->expected_pressure);
+      if (phase_ == Phase::beats && simulation_.time() == 0 && scene_.text("time.start") == "rest" &&
+          setup_->inlet.ramp == 0)
+        result_.record.failure +=
+            "; with time.ramp = 0 the load comes as a blow, give it a ramp such as 0.05 s";
     }
     log_.store(result_, end_, result_.record.converged && !is_static_);
     count();

@@ -43,40 +43,35 @@ std::string compression(const Problem& problem, const LeastJacobian& least) {
   return problem.discretisation.stiffened_mesh ? text : text + "; mesh.motion = \"stiffened\" may bear more";
 }
 
-/// The field and the place of an entry of the state.
-std::string farthest(const Assembler& assembler, std::size_t entry) {
+}  // namespace
+
+std::string place_of(const Assembler& assembler, std::size_t entry) {
   const Layout& layout = assembler.layout();
   const Mesh& mesh = assembler.problem().mesh;
-  if (entry >= layout.scalar_begin()) {
-    if (entry == layout.inlet_pressure) return "; farthest from one is the pressure at the inlet";
-    return "; farthest from one is the pressure at the outlet";
-  }
+  if (entry >= layout.scalar_begin())
+    return entry == layout.inlet_pressure ? "pressure at the inlet" : "pressure at the outlet";
   int node = -1;
   const char* field = "blood's pressure";
   if (entry < layout.pressure_begin()) {
     const bool moves = entry < layout.velocity_begin();
     node = static_cast<int>((moves ? entry : entry - layout.velocity_begin()) / 2);
-    field = !moves ? "blood's velocity" : layout.on_wall(node) ? "wall's displacement" : "blood's mesh";
+    field = !moves ? "blood's velocity" : layout.on_wall(node) ? "wall's displacement" : "motion of the mesh";
   } else {
     for (int n = 0; node < 0 && n < static_cast<int>(mesh.points.size()); ++n)
       if (layout.has_pressure(n) && layout.pressure(n) == entry) node = n;
   }
-  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
-    const auto& nodes = mesh.cells[c].nodes;
-    if (std::find(nodes.begin(), nodes.end(), node) != nodes.end())
-      return fmt::format("; farthest from one is the {} at {}", field,
-                         place_of(mesh, static_cast<int>(c), node));
-  }
-  return {};
+  const auto cell = std::find_if(mesh.cells.begin(), mesh.cells.end(), [&](const Cell& c) {
+    return std::find(c.nodes.begin(), c.nodes.end(), node) != c.nodes.end();
+  });
+  return fmt::format("{} at {}", field, place_of(mesh, static_cast<int>(cell - mesh.cells.begin()), node));
 }
-
-}  // namespace
 
 std::string explain(const Assembler& assembler, const NewtonReport& report) {
   const LeastJacobian& least = assembler.least_jacobian();
   std::string text = report.failure;
   if (least.cell >= 0 && !(least.value >= compressed)) return text + compression(assembler.problem(), least);
-  return report.worst ? text + farthest(assembler, *report.worst) : text;
+  return report.worst ? text + "; farthest from a solution is the " + place_of(assembler, *report.worst)
+                      : text;
 }
 
 std::string limit_of_wall(const radial::RingModel* ring, double pressure) {

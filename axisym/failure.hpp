@@ -13,6 +13,9 @@ namespace tunica::axisym {
 /// Places are those in the unloaded vessel.
 std::string explain(const Assembler& assembler, const NewtonReport& report);
 
+/// Field and place of an entry of the state: "wall's displacement at r = ...".
+std::string place_of(const Assembler& assembler, std::size_t entry);
+
 /// That a ring of the wall cannot carry a pressure (dyn/cm2), and how much it can, preceded by "; ". Empty
 /// when it can or when that is not known.
 std::string limit_of_wall(const radial::RingModel* ring, double pressure);

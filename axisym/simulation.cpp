@@ -80,18 +80,26 @@ double Simulation::error_norm(std::span<const double> stage_value) {
   const bool moves = problem_.mesh.has(Part::wall);
   const double size =
       moves ? std::max(sizes.displacement, scales.displacement) : std::max(sizes.velocity, scales.velocity);
-  double sum = 0;
+  double sum = 0, greatest = 0;
   for (std::size_t n = 0; n < shares_.size(); ++n) {
     const int node = static_cast<int>(n);
     for (int c = 0; c < 2; ++c) {
-      const double e = error_[moves ? layout.displacement(node, c) : layout.velocity(node, c)];
-      sum += shares_[n] * e * e;
+      const std::size_t entry = moves ? layout.displacement(node, c) : layout.velocity(node, c);
+      const double square = shares_[n] * error_[entry] * error_[entry];
+      sum += square;
+      if (square <= greatest) continue;
+      greatest = square;
+      worst_ = entry;
     }
   }
   double norm = size > 0 ? std::sqrt(sum) / (options_.tolerance * size) : 0;
   const double pressure = std::max(sizes.pressure, scales.pressure);
-  for (std::size_t e = layout.scalar_begin(); e < layout.size() && pressure > 0; ++e)
-    norm = std::max(norm, std::abs(error_[e]) / (options_.tolerance * pressure));
+  for (std::size_t e = layout.scalar_begin(); e < layout.size() && pressure > 0; ++e) {
+    const double share = std::abs(error_[e]) / (options_.tolerance * pressure);
+    if (share <= norm || std::isnan(norm)) continue;
+    norm = share;
+    worst_ = e;
+  }
   return norm;
 }
 
@@ -131,9 +139,13 @@ void Simulation::advance(double stop) {
 }
 
 void Simulation::give_up(const NewtonReport& report) const {
-  throw SolverFailure(fmt::format("the smallest time step, {:.2g} s, was not solved: {}",
-                                  control_.options().minimum,
-                                  report.converged ? "its error is too large" : explain(assembler_, report)));
+  const double step = control_.options().minimum;
+  if (report.converged)
+    throw SolverFailure(
+        fmt::format("even the smallest time step, {:.2g} s, has too large an error, in the {}", step,
+                    place_of(assembler_, worst_)));
+  throw SolverFailure(
+      fmt::format("the smallest time step, {:.2g} s, was not solved: {}", step, explain(assembler_, report)));
 }
 
 namespace {

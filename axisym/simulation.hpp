@@ -71,6 +71,7 @@ class Simulation {
   time::Scheme scheme_;
   time::StepControl control_;
   std::vector<double> candidate_, error_;
+  std::size_t worst_ = 0;       ///< entry with the greatest share in the error of the last step tried
   std::vector<double> shares_;  ///< of the nodes in the volume whose error is measured
   double step_begin_ = 0;
   double least_jacobian_ = 1;

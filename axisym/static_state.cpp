@@ -198,9 +198,12 @@ std::vector<double> climb(Setup& setup, Solver& solver, double pressure,
     if (increment >= smallest) continue;
     const std::string why = explain(solver.assembler(), solved) + limit_of_wall(setup.ring.get(), pressure);
     setup.load = 1;
-    throw SolverFailure(
-        fmt::format("no static equilibrium was found beyond {:.3g} % of the load, {:.4g} of {:.4g} mmHg: {}",
-                    100 * reached, reached * pressure / mmhg, pressure / mmhg, why));
+    const std::string in_lumen =
+        pressure == 0 || reached == 0
+            ? ""
+            : fmt::format(", {:.4g} of {:.4g} mmHg in the lumen", reached * pressure / mmhg, pressure / mmhg);
+    throw SolverFailure(fmt::format("no static equilibrium was found beyond {:.3g} % of the load{}: {}",
+                                    100 * reached, in_lumen, why));
   }
   return reached < 1 ? std::vector<double>{} : past.last();
 }
