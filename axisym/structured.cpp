@@ -17,7 +17,6 @@ namespace tunica::axisym {
 namespace {
 
 constexpr double most_nodes = 1e7;
-constexpr double steepest_grading = 1e6;
 
 void need_positive(const char* key, double value) {
   if (!(value > 0) || !std::isfinite(value))

@@ -7,6 +7,9 @@
 
 namespace tunica::axisym {
 
+/// Ratio of the longest to the shortest cell in one direction that numbers still resolve.
+inline constexpr double steepest_grading = 1e6;
+
 /// A straight tube in rows and columns of rectangles, from z = 0 (inlet) to z = length (outlet).
 struct TubeSpec {
   double radius = 0;           ///< of the lumen, cm

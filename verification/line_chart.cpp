@@ -66,7 +66,7 @@ Axis axis_of(const std::vector<Series>& series, std::vector<double> Series::*val
   double least = INFINITY, greatest = -INFINITY;
   for (const Series& s : series)
     for (const double value : s.*values) {
-      if (logarithmic && !(value > 0)) throw std::logic_error("svg: x <= 0 on a logarithmic axis");
+      if (logarithmic && !(value > 0)) throw std::logic_error("svg: a value <= 0 on a logarithmic axis");
       const double v = logarithmic ? std::log10(value) : value;
       least = std::min(least, v);
       greatest = std::max(greatest, v);
@@ -78,7 +78,7 @@ Axis axis_of(const std::vector<Series>& series, std::vector<double> Series::*val
 
 std::string drawn(const LineChart& chart) {
   const Axis x = axis_of(chart.series, &Series::x, chart.log_x, left, width - right);
-  const Axis y = axis_of(chart.series, &Series::y, false, height - bottom, top);
+  const Axis y = axis_of(chart.series, &Series::y, chart.log_y, height - bottom, top);
   std::string out =
       fmt::format("<text x=\"{}\" y=\"22\" font-size=\"15\">{}</text>\n", left, escaped(chart.title));
   for (const double tick : x.ticks())

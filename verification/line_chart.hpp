@@ -17,11 +17,11 @@ struct Series {
 struct LineChart {
   std::string title, x_label, y_label;
   std::vector<Series> series;
-  bool log_x = false;
+  bool log_x = false, log_y = false;
 };
 
 /// Charts beside each other as one SVG picture, as text.
-/// Throws std::logic_error for a chart without points and for x <= 0 on a logarithmic axis.
+/// Throws std::logic_error for a chart without points and for values <= 0 on a logarithmic axis.
 std::string svg(const std::vector<LineChart>& charts);
 
 }  // namespace tunica::verification
