@@ -62,8 +62,8 @@ Resolution resolution(const Scene& scene) {
   // kink, within a cell. Along it they fall faster.
   const bool quadratic = scene.text("mesh.element") == "quadratic";
   const double finer = quadratic ? 1 : 3;
-  const double across = quadratic ? 2.1 : 2, along = quadratic ? 4.3 : 2;
-  r.wall_cells = cells(2 * finer, across, tolerance);
+  const double across = quadratic ? 2.1 : 2, through = quadratic ? 2.6 : 2, along = quadratic ? 4.3 : 2;
+  r.wall_cells = cells(quadratic ? 2.4 : 6, through, tolerance);
   r.blood_cells = cells(2 * finer, across, tolerance);
   // Half of the cells lie in the layers where the clamped ends bend the wall, whose number does not depend on
   // the length; the rest follow the artery.

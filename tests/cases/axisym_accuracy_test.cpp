@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What accuracy.tolerance promises of the 2D tier: errors of all observables, relative to their ranges, over
+// two beats of the paper's cylinder from rest. tools/accuracy measures the same against much finer runs.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "tests/support/axisym_runs.hpp"
+
+namespace tunica {
+namespace {
+
+using test_support::artery;
+using test_support::run_axisym;
+
+const Result& computed(const std::string& law, const std::string& tolerance) {
+  static std::map<std::pair<std::string, std::string>, Result> results;
+  const auto [place, is_new] = results.try_emplace({law, tolerance});
+  if (is_new) place->second = run_axisym(artery({"wall.law=" + law, "accuracy.tolerance=" + tolerance}));
+  return place->second;
+}
+
+/// Greatest difference by column, relative to the reference's range; columns that a law has not are left
+/// out, and the recruited share, which jumps within milliseconds: its times are compared by tunica verify.
+std::map<std::string, double> errors(const Result& result, const Result& reference) {
+  std::map<std::string, double> all;
+  for (const auto& column : reference.observables.columns()) {
+    if (column.name == "time" || column.name.starts_with("recruitment") ||
+        observables::is_none(column.values[0]))
+      continue;
+    const auto [least, greatest] = std::minmax_element(column.values.begin(), column.values.end());
+    if (!(*greatest > *least)) continue;
+    double largest = 0;
+    const auto& ours = test_support::values(result.observables, column.name);
+    for (std::size_t k = 0; k < ours.size(); ++k)
+      largest = std::max(largest, std::abs(ours[k] - column.values[k]));
+    all[column.name] = largest / (*greatest - *least);
+  }
+  return all;
+}
+
+class Tolerance : public testing::TestWithParam<std::string> {};
+
+// The reference is ten times more accurate: a tenth of a percent is left for its own error.
+TEST_P(Tolerance, OfOnePercentIsKeptInEveryColumn) {
+  const auto all = errors(computed(GetParam(), "0.01"), computed(GetParam(), "0.001"));
+  EXPECT_GT(all.size(), 12u);
+  for (const auto& [column, error] : all) EXPECT_LT(error, 0.009) << column;
+}
+INSTANTIATE_TEST_SUITE_P(, Tolerance, testing::Values("EXP1", "EXP2", "EXP1+EXP2-ZS", "EXP1+EXP2-FS"),
+                         [](const auto& instance) {
+                           std::string name = instance.param;
+                           std::erase_if(name, [](char c) { return c == '+' || c == '-'; });
+                           return name;
+                         });
+
+// The reference's own error, a third of the tolerance, is left room for.
+TEST(FineTolerance, IsKeptInEveryColumn) {
+  const std::string law = "EXP1+EXP2-ZS";
+  for (const auto& [column, error] : errors(computed(law, "0.001"), computed(law, "0.0003")))
+    EXPECT_LT(error, 0.001) << column;
+}
+
+}  // namespace
+}  // namespace tunica
