@@ -5,12 +5,10 @@
 
 #include <exception>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
-#include <stdexcept>
 #include <string>
 
 #include "core/observables/result.hpp"
+#include "verification/page.hpp"
 #include "verification/ripple_tables.hpp"
 
 using namespace tunica;
@@ -18,16 +16,8 @@ using namespace tunica::verification;
 
 namespace {
 
-constexpr std::string_view first_mark = "<!-- tables: written by tunica_tether_stability, do not edit -->\n";
-constexpr std::string_view last_mark = "<!-- end of tables -->\n";
-
 std::string markdown(const RippleTable& table) {
-  std::string text =
-      fmt::format("### {}\n\n{}\n\n| {} |\n|", table.title, table.text, fmt::join(table.header, " | "));
-  for (std::size_t k = 0; k < table.header.size(); ++k) text += "---|";
-  text += "\n";
-  for (const auto& row : table.rows) text += fmt::format("| {} |\n", fmt::join(row, " | "));
-  return text + "\n";
+  return fmt::format("### {}\n\n{}\n\n", table.title, table.text) + markdown_table(table.header, table.rows);
 }
 
 /// Fields that hold a comma are quoted.
@@ -45,15 +35,6 @@ std::string csv(const RippleTable& table) {
   return text;
 }
 
-std::string with_tables(const std::string& page, const std::vector<RippleTable>& tables) {
-  const std::size_t begin = page.find(first_mark), end = page.find(last_mark);
-  if (begin == std::string::npos || end == std::string::npos || end < begin)
-    throw std::runtime_error(fmt::format("the page lacks the marks {} and {}", first_mark, last_mark));
-  std::string text = page.substr(0, begin + first_mark.size()) + "\n";
-  for (const RippleTable& table : tables) text += markdown(table);
-  return text + page.substr(end);
-}
-
 }  // namespace
 
 int main(int count, char** arguments) {
@@ -62,11 +43,11 @@ int main(int count, char** arguments) {
     return 2;
   }
   try {
-    std::ifstream file(arguments[1]);
-    if (!file) throw std::runtime_error(fmt::format("{} cannot be read", arguments[1]));
-    const std::string page{std::istreambuf_iterator<char>(file), {}};
+    const Page page(arguments[1], "tables", "tunica_tether_stability");
     const auto tables = ripple_tables();
-    write_whole(arguments[1], with_tables(page, tables));
+    std::string text;
+    for (const RippleTable& table : tables) text += markdown(table);
+    page.write(text);
     if (count == 2) return 0;
     const std::filesystem::path folder = arguments[2];
     std::filesystem::create_directories(folder);
