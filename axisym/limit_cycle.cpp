@@ -83,7 +83,7 @@ LimitCycle limit_cycle(Simulation& simulation, std::vector<double> guess, double
     const Vector weights = range.weights(simulation.assembler());
     ++report.periods;
     images.push_back(image);
-    differences.push_back(image - x);
+    differences.emplace_back(image - x);
     if (images.size() > depth) {
       images.erase(images.begin());
       differences.erase(differences.begin());

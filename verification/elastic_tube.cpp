@@ -9,10 +9,7 @@
 #include <cmath>
 #include <exception>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <map>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -20,25 +17,36 @@
 #include "core/observables/result.hpp"
 #include "verification/elastic_tube_runs.hpp"
 #include "verification/line_chart.hpp"
+#include "verification/page.hpp"
 
 using namespace tunica;
 using namespace tunica::verification;
 
 namespace {
 
-constexpr std::string_view first_mark = "<!-- tables: written by tunica_elastic_tube, do not edit -->\n";
-constexpr std::string_view last_mark = "<!-- end of tables -->\n";
-
 constexpr std::array<double, 7> steps{8e-4, 4e-4, 2e-4, 1e-4, 5e-5, 2.5e-5, 1.25e-5};
-constexpr std::array<const char*, 3> schemes{"bdf2", "backward-euler", "generalized-alpha"};
+struct Method {
+  const char *scheme, *name;
+};
+constexpr std::array<Method, 3> methods{
+    {{"bdf2", "BDF2"}, {"backward-euler", "backward Euler"}, {"generalized-alpha", "generalised-α"}}};
 constexpr double usual_step = 5e-5;
 
 struct Cells {
-  int wall, blood, axial;
-  std::string name() const { return fmt::format("{} x {}, {}", wall, blood, axial); }
+  int wall, lumen, axial;
+  std::string name() const { return fmt::format("{} x {}, {}", wall, lumen, axial); }
 };
-constexpr Cells usual{2, 4, 80};
-constexpr Cells meshes[] = {{1, 2, 20}, {2, 4, 40}, {4, 8, 80}, {8, 16, 160}};
+constexpr Cells usual{2, 4, 160};
+/// Refined one direction at a time: the errors of two of them are opposite, and would hide each other.
+struct Direction {
+  const char* name;
+  std::array<Cells, 4> cells;
+};
+constexpr std::array<Direction, 3> directions{
+    {{"along the tube", {{{2, 4, 40}, {2, 4, 80}, {2, 4, 160}, {2, 4, 320}}}},
+     {"across the lumen", {{{2, 2, 160}, {2, 4, 160}, {2, 8, 160}, {2, 16, 160}}}},
+     {"through the wall", {{{1, 4, 160}, {2, 4, 160}, {4, 4, 160}, {8, 4, 160}}}}}};
+using MeshStudy = std::array<std::array<TubeRun, 4>, 3>;
 
 using Study = std::map<std::pair<std::string, double>, TubeRun>;
 
@@ -49,7 +57,7 @@ class Tube {
   TubeRun run(const Cells& cells, double step, std::vector<std::string> more) const {
     more.insert(
         more.end(),
-        {fmt::format("mesh.wall_cells={}", cells.wall), fmt::format("mesh.blood_cells={}", cells.blood),
+        {fmt::format("mesh.wall_cells={}", cells.wall), fmt::format("mesh.blood_cells={}", cells.lumen),
          fmt::format("mesh.axial_cells={}", cells.axial), fmt::format("time.step={}", step)});
     const TubeRun run = run_tube(tier_, scene_, more);
     fmt::print(stderr, "{}: {:.6f} mm at {:.4f} ms, {} unknowns, {} steps, {:.1f} s\n", fmt::join(more, " "),
@@ -66,79 +74,110 @@ std::string percent(double ours, double reference) {
   return fmt::format("{:+.2f} %", 100 * (ours / reference - 1));
 }
 
-std::string table(const std::string& head, const std::vector<std::string>& rows) {
-  std::string rule = "|";
-  for (std::size_t k = 1; k < head.size(); ++k) rule += head[k] == '|' ? "---|" : "";
-  return fmt::format("{}\n{}\n{}\n\n", head, rule, fmt::join(rows, "\n"));
-}
-
 struct Limits {
-  TubePeak tube;            ///< no step, no mesh
-  double in_time, in_mesh;  ///< what the extrapolations added, mm
+  TubePeak tube;                  ///< no step, no mesh
+  double in_time;                 ///< what smaller steps add, mm
+  std::array<double, 3> in_mesh;  ///< what smaller cells add, mm
 };
 
 std::string step_table(const Study& study) {
-  const auto peak = [&](const char* scheme, double step) { return study.at({scheme, step}).peak; };
-  std::vector<std::string> rows;
-  for (std::size_t k = 0; k < steps.size(); ++k) {
-    std::string row = fmt::format("| {:g} | ", steps[k]);
-    row += k < published_tube.size() ? fmt::format("{:.4f} | {:.1f} ", published_tube[k].peak.displacement,
-                                                   1e3 * published_tube[k].peak.time)
-                                     : "| ";
-    for (const char* scheme : schemes)
-      row += fmt::format("| {:.4f} | {:.2f} ", peak(scheme, steps[k]).displacement,
-                         1e3 * peak(scheme, steps[k]).time);
-    rows.push_back(row + "|");
-  }
-  return table(
-      "| step [s] | published, BDF2 [mm] | at [ms] | BDF2 [mm] | at [ms] | backward Euler [mm] | at [ms] | "
-      "generalised-α [mm] | at [ms] |",
-      rows);
-}
-
-std::string mesh_table(const std::vector<TubeRun>& runs) {
-  std::vector<std::string> rows;
-  for (std::size_t k = 0; k < runs.size(); ++k)
-    rows.push_back(fmt::format("| {} | {} | {:.5f} | {:.2f} | {} |", meshes[k].name(), runs[k].unknowns,
-                               runs[k].peak.displacement, 1e3 * runs[k].peak.time,
-                               k < 2 ? ""
-                                     : fmt::format("{:.1f}", observed_order(runs[k - 2].peak.displacement,
-                                                                            runs[k - 1].peak.displacement,
-                                                                            runs[k].peak.displacement))));
-  return table("| cells through wall x lumen, along | unknowns | peak [mm] | at [ms] | order from three |",
-               rows);
-}
-
-Limits limits_of(const Study& study, const std::vector<TubeRun>& on_meshes) {
-  const auto in_time = [&](auto value) {
-    return extrapolated(value(study.at({"bdf2", 2.5e-5})), value(study.at({"bdf2", 1.25e-5})), 2) -
-           value(study.at({"bdf2", usual_step}));
+  std::vector<std::string> header{"step [s]", "published, BDF2 [mm]", "at [ms]"};
+  for (const Method& method : methods)
+    header.insert(header.end(), {fmt::format("{} [mm]", method.name), "at [ms]"});
+  std::vector<std::vector<std::string>> rows;
+  const auto add = [](std::vector<std::string>& row, const TubePeak& peak, int digits) {
+    row.insert(row.end(),
+               {fmt::format("{:.4f}", peak.displacement), fmt::format("{:.{}f}", 1e3 * peak.time, digits)});
   };
-  const auto on_mesh = [&](auto value) {
-    return extrapolated(value(on_meshes[on_meshes.size() - 2]), value(on_meshes.back()), 3);
+  for (std::size_t k = 0; k < steps.size(); ++k) {
+    std::vector<std::string> row{fmt::format("{:g}", steps[k])};
+    if (k < published_tube.size())
+      add(row, published_tube[k].peak, 1);
+    else
+      row.insert(row.end(), {"", ""});
+    for (const Method& method : methods) add(row, study.at({method.scheme, steps[k]}).peak, 2);
+    rows.push_back(row);
+  }
+  return markdown_table(header, rows);
+}
+
+/// The order that the peak shows with a step and the two before it.
+std::string order_table(const Study& study) {
+  std::vector<std::string> header{"steps [s]", "published, BDF2"};
+  for (const Method& method : methods) header.emplace_back(method.name);
+  std::vector<std::vector<std::string>> rows;
+  for (std::size_t k = 2; k < steps.size(); ++k) {
+    std::vector<std::string> row{fmt::format("{:g}, {:g}, {:g}", steps[k - 2], steps[k - 1], steps[k])};
+    const auto theirs = [](std::size_t at) { return published_tube[at].peak.displacement; };
+    row.push_back(k < published_tube.size() ? order_text(theirs(k - 2), theirs(k - 1), theirs(k)) : "");
+    for (const Method& method : methods) {
+      const auto ours = [&](std::size_t at) {
+        return study.at({method.scheme, steps[at]}).peak.displacement;
+      };
+      row.push_back(order_text(ours(k - 2), ours(k - 1), ours(k)));
+    }
+    rows.push_back(row);
+  }
+  return markdown_table(header, rows);
+}
+
+std::string mesh_table(const MeshStudy& on_meshes, const TubeRun& finest, const Cells& finest_cells) {
+  std::vector<std::vector<std::string>> rows;
+  const auto add = [&](const std::string& refined, const Cells& cells, const TubeRun& run,
+                       const std::string& order) {
+    rows.push_back({refined, cells.name(), std::to_string(run.unknowns),
+                    fmt::format("{:.5f}", run.peak.displacement), fmt::format("{:.3f}", 1e3 * run.peak.time),
+                    order});
+  };
+  for (std::size_t d = 0; d < directions.size(); ++d)
+    for (std::size_t k = 0; k < directions[d].cells.size(); ++k) {
+      const auto peak = [&](std::size_t at) { return on_meshes[d][at].peak.displacement; };
+      add(directions[d].name, directions[d].cells[k], on_meshes[d][k],
+          k < 2 ? "" : order_text(peak(k - 2), peak(k - 1), peak(k)));
+    }
+  add("all", finest_cells, finest, "");
+  return markdown_table({"refined", "cells through wall x lumen, along", "unknowns", "peak [mm]", "at [ms]",
+                         "order from three"},
+                        rows);
+}
+
+/// The usual mesh and step, and what smaller steps and cells in each direction add. Order 2 for all: the
+/// least that is observed.
+Limits limits_of(const Study& study, const MeshStudy& on_meshes) {
+  const TubeRun& base = study.at({"bdf2", usual_step});
+  const auto added = [](auto value, const TubeRun& coarse, const TubeRun& fine, const TubeRun& from) {
+    return extrapolated(value(coarse), value(fine), 2) - value(from);
   };
   const auto displacement = [](const TubeRun& run) { return run.peak.displacement; };
   const auto time = [](const TubeRun& run) { return run.peak.time; };
-  Limits limits{};
-  limits.in_time = in_time(displacement);
-  limits.in_mesh = on_mesh(displacement) - on_meshes.back().peak.displacement;
-  limits.tube = {on_mesh(time) + in_time(time), on_mesh(displacement) + limits.in_time};
+  const TubeRun &coarse = study.at({"bdf2", 2.5e-5}), &fine = study.at({"bdf2", 1.25e-5});
+  Limits limits{base.peak, added(displacement, coarse, fine, base), {}};
+  limits.tube.time += added(time, coarse, fine, base);
+  limits.tube.displacement += limits.in_time;
+  for (std::size_t d = 0; d < directions.size(); ++d) {
+    limits.in_mesh[d] = added(displacement, on_meshes[d][2], on_meshes[d][3], base);
+    limits.tube.time += added(time, on_meshes[d][2], on_meshes[d][3], base);
+    limits.tube.displacement += limits.in_mesh[d];
+  }
   return limits;
 }
 
 std::string limit_table(const Limits& limits) {
-  std::vector<std::string> rows{
-      fmt::format("| peak of the displacement [mm] | {:.4f} | {:.3f} | {} | 1.5 % |",
-                  limits.tube.displacement, published_limit.displacement,
-                  percent(limits.tube.displacement, published_limit.displacement)),
-      fmt::format("| its time [ms] | {:.2f} | {:.1f} | {} | 2 % |", 1e3 * limits.tube.time,
-                  1e3 * published_limit.time, percent(limits.tube.time, published_limit.time))};
-  return table("| limit for small steps and cells | ours | published | difference | bar |", rows) +
+  return markdown_table(
+             {"limit for small steps and cells", "ours", "published", "difference", "bar"},
+             {{"peak of the displacement [mm]", fmt::format("{:.4f}", limits.tube.displacement),
+               fmt::format("{:.3f}", published_limit.displacement),
+               percent(limits.tube.displacement, published_limit.displacement),
+               fmt::format("{:g} %", 100 * displacement_bar)},
+              {"its time [ms]", fmt::format("{:.2f}", 1e3 * limits.tube.time),
+               fmt::format("{:.1f}", 1e3 * published_limit.time),
+               percent(limits.tube.time, published_limit.time), fmt::format("{:g} %", 100 * time_bar)}}) +
          fmt::format(
-             "Ours: the finest mesh at {:g} s, plus {:+.5f} mm for what smaller cells would add (order 3) "
-             "and "
-             "{:+.5f} mm for smaller steps (BDF2, order 2).\n\n",
-             usual_step, limits.in_mesh, limits.in_time);
+             "Ours: cells {} at {:g} s, plus {:+.5f} mm for smaller steps, and for smaller cells {:+.5f} mm "
+             "{}, "
+             "{:+.5f} mm {} and {:+.5f} mm {}.\n\n",
+             usual.name(), usual_step, limits.in_time, limits.in_mesh[0], directions[0].name,
+             limits.in_mesh[1], directions[1].name, limits.in_mesh[2], directions[2].name);
 }
 
 struct Variant {
@@ -158,49 +197,50 @@ std::vector<Variant> variants() {
 }
 
 std::string variant_table(const std::vector<TubeRun>& runs, const TubeTrace& published) {
-  std::vector<std::string> rows;
+  std::vector<std::vector<std::string>> rows;
   const auto all = variants();
   for (std::size_t k = 0; k < all.size(); ++k)
-    rows.push_back(fmt::format("| {} | {} | {:.4f} | {:.2f} | {:.3f} | {:.3f} |", all[k].name, runs[k].steps,
-                               runs[k].peak.displacement, 1e3 * runs[k].peak.time,
-                               greatest_difference(runs[k].trace, published, 0.012),
-                               greatest_difference(runs[k].trace, published, 0.02)));
-  return table(
-      "| variant | steps | peak [mm] | at [ms] | from the published trace at most, to 12 ms [mm] | to 20 ms "
-      "[mm] |",
-      rows);
+    rows.push_back({all[k].name, std::to_string(runs[k].steps),
+                    fmt::format("{:.4f}", runs[k].peak.displacement),
+                    fmt::format("{:.2f}", 1e3 * runs[k].peak.time),
+                    fmt::format("{:.4f}", greatest_difference(runs[k].trace, published, 0.012)),
+                    fmt::format("{:.4f}", greatest_difference(runs[k].trace, published, 0.02))});
+  return markdown_table({"variant", "steps", "peak [mm]", "at [ms]",
+                         "from the published trace at most, to 12 ms [mm]", "to 20 ms [mm]"},
+                        rows);
+}
+
+std::vector<double> times(std::vector<double> values, double factor) {
+  for (double& value : values) value *= factor;
+  return values;
 }
 
 std::string picture(const Study& study, const TubeTrace& published) {
-  const auto milliseconds = [](std::vector<double> times) {
-    for (double& t : times) t *= 1e3;
-    return times;
-  };
   LineChart traces{
       "Elastic tube: inner wall at mid-length, BDF2", "time [ms]", "radial displacement [mm]", {}, false};
   for (const double step : {8e-4, 2e-4, 5e-5, 1.25e-5}) {
     const TubeTrace& trace = study.at({"bdf2", step}).trace;
     traces.series.push_back(
-        {fmt::format("{:g} s", step), milliseconds(trace.time), trace.displacement, true, false});
+        {fmt::format("{:g} µs", 1e6 * step), times(trace.time, 1e3), trace.displacement, true, false});
   }
   traces.series.push_back(
-      {"published, 5e-05 s", milliseconds(published.time), published.displacement, false, true});
-  LineChart peaks{"Its peak by the step", "step [s]", "greatest radial displacement [mm]", {}, true};
-  for (const char* scheme : schemes) {
-    Series series{scheme, {}, {}, true, true};
+      {"published, 50 µs", times(published.time, 1e3), published.displacement, false, true});
+  LineChart peaks{"Its peak by the step", "step [µs]", "greatest radial displacement [mm]", {}, true};
+  for (const Method& method : methods) {
+    Series series{method.name, {}, {}, true, true};
     for (const double step : steps) {
-      series.x.push_back(step);
-      series.y.push_back(study.at({scheme, step}).peak.displacement);
+      series.x.push_back(1e6 * step);
+      series.y.push_back(study.at({method.scheme, step}).peak.displacement);
     }
     peaks.series.push_back(series);
   }
   Series theirs{"published, BDF2", {}, {}, true, true};
   for (const auto& [step, peak] : published_tube) {
-    theirs.x.push_back(step);
+    theirs.x.push_back(1e6 * step);
     theirs.y.push_back(peak.displacement);
   }
   peaks.series.push_back(theirs);
-  return svg({traces, peaks});
+  return svg({traces, peaks}, 2);
 }
 
 /// Every 0.1 ms of the runs with a name.
@@ -219,52 +259,50 @@ std::string csv(const std::vector<std::pair<std::string, TubeTrace>>& traces) {
   return observables::to_csv(all);
 }
 
-std::string with_tables(const std::string& page, const std::string& tables) {
-  const std::size_t begin = page.find(first_mark), end = page.find(last_mark);
-  if (begin == std::string::npos || end == std::string::npos || end < begin)
-    throw std::runtime_error(fmt::format("the page lacks the marks {} and {}", first_mark, last_mark));
-  return page.substr(0, begin + first_mark.size()) + "\n" + tables + page.substr(end);
-}
-
 void write_all(char** arguments) {
-  std::ifstream file(arguments[3]);
-  if (!file) throw std::runtime_error(fmt::format("{} cannot be read", arguments[3]));
-  const std::string page{std::istreambuf_iterator<char>(file), {}};
+  const Page page(arguments[3], "tables", "tunica_elastic_tube");
   const auto columns = observables::read_csv(arguments[2]);
   const TubeTrace published{columns[0].values, columns[1].values};
 
   const Tube tube(arguments[1]);
   Study study;
-  for (const char* scheme : schemes)
+  for (const Method& method : methods)
     for (const double step : steps)
-      study[{scheme, step}] = tube.run(usual, step, {std::string("time.scheme=") + scheme});
-  std::vector<TubeRun> on_meshes, of_variants;
-  for (const Cells& mesh : meshes) on_meshes.push_back(tube.run(mesh, usual_step, {}));
+      study[{method.scheme, step}] = tube.run(usual, step, {std::string("time.scheme=") + method.scheme});
+  MeshStudy on_meshes;
+  for (std::size_t d = 0; d < directions.size(); ++d)
+    for (std::size_t k = 0; k < directions[d].cells.size(); ++k)
+      on_meshes[d][k] = tube.run(directions[d].cells[k], usual_step, {});
+  const Cells finest_cells{4, 8, 320};
+  const TubeRun finest = tube.run(finest_cells, usual_step, {});
+  std::vector<TubeRun> of_variants;
   for (const Variant& variant : variants()) {
     TubeRun run = tube.run(usual, variant.step, variant.overrides);
-    for (double& u : run.trace.displacement) u *= variant.factor;
+    run.trace.displacement = times(run.trace.displacement, variant.factor);
     run.peak.displacement *= variant.factor;
     of_variants.push_back(run);
   }
 
   std::vector<std::pair<std::string, TubeTrace>> named;
-  for (const char* scheme : schemes)
+  for (const Method& method : methods)
     for (const double step : steps)
-      named.emplace_back(fmt::format("{}.{:g}s", scheme, step), study.at({scheme, step}).trace);
-  named.emplace_back("finest_mesh", on_meshes.back().trace);
+      named.emplace_back(fmt::format("{}.{:g}s", method.scheme, step), study.at({method.scheme, step}).trace);
+  named.emplace_back("finest_mesh", finest.trace);
   named.emplace_back("st_venant_kirchhoff", of_variants[1].trace);
   named.emplace_back("small_amplitude", of_variants[2].trace);
 
   const std::string tables =
       "### Limits\n\n" + limit_table(limits_of(study, on_meshes)) +
       fmt::format("### Steps\n\nCells {}.\n\n", usual.name()) + step_table(study) +
-      fmt::format("### Cells\n\nBDF2 with steps of {:g} s.\n\n", usual_step) + mesh_table(on_meshes) +
+      "Order that the peak shows:\n\n" + order_table(study) +
+      fmt::format("### Cells\n\nBDF2 with steps of {:g} s.\n\n", usual_step) +
+      mesh_table(on_meshes, finest, finest_cells) +
       fmt::format("### Variants\n\nCells {}; BDF2, steps of {:g} s unless said otherwise.\n\n", usual.name(),
                   usual_step) +
       variant_table(of_variants, published);
   write_whole(arguments[4], picture(study, published));
   write_whole(arguments[5], csv(named));
-  write_whole(arguments[3], with_tables(page, tables));
+  page.write(tables);
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "verification/elastic_tube_runs.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -58,8 +60,16 @@ double extrapolated(double coarse, double fine, double order) {
   return fine + (fine - coarse) / (std::pow(2.0, order) - 1);
 }
 
-double observed_order(double coarse, double middle, double fine) {
-  return std::log2((middle - coarse) / (fine - middle));
+std::optional<double> observed_order(double coarse, double middle, double fine) {
+  const double ratio = (middle - coarse) / (fine - middle);
+  if (!(ratio > 0) || !std::isfinite(ratio)) return {};
+  return std::log2(ratio);
+}
+
+std::string order_text(double coarse, double middle, double fine) {
+  if (std::abs(fine - middle) < 2e-5 * std::abs(fine)) return "converged";
+  const auto order = observed_order(coarse, middle, fine);
+  return order ? fmt::format("{:.2f}", *order) : "not monotone";
 }
 
 }  // namespace tunica::verification

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,8 +41,12 @@ double greatest_difference(const TubeTrace& trace, const TubeTrace& reference, d
 
 /// Richardson's extrapolation of values whose errors fall with the order when steps are halved.
 double extrapolated(double coarse, double fine, double order);
-/// Order that three values show, each with half the step of the one before.
-double observed_order(double coarse, double middle, double fine);
+/// Order that three values show, each with half the step of the one before; none when they do not run one
+/// way.
+std::optional<double> observed_order(double coarse, double middle, double fine);
+/// "1.98", or why there is none: "not monotone", or "converged" where the last two differ by less than 1e-5
+/// of them.
+std::string order_text(double coarse, double middle, double fine);
 
 /// Peaks that solids4foam publishes, with BDF2 (github.com/solids4foam/solids4foam-tutorials-benchmark-data,
 /// tutorials/fluidSolidInteraction/3dTube/v2012/sonicLiquidFluid/aitkens/backward).

@@ -76,9 +76,48 @@ Axis axis_of(const std::vector<Series>& series, std::vector<double> Series::*val
   return {least - margin, greatest + margin, from, to, logarithmic};
 }
 
+constexpr double row_height = 17, legend_width = 150;
+
+/// Upper left corner of the legend where the fewest points of the lines are.
+std::array<double, 2> legend_place(const LineChart& chart, const Axis& x, const Axis& y) {
+  const double rows = row_height * static_cast<double>(chart.series.size()) + 8;
+  const auto points_within = [&](double column, double row) {
+    int within = 0;
+    for (const Series& s : chart.series)
+      for (std::size_t i = 0; i < s.x.size(); ++i) {
+        const std::size_t before = i == 0 ? 0 : i - 1;
+        constexpr int parts = 8;  // of the line from point to point
+        for (int k = 1; k <= parts; ++k) {
+          const double share = static_cast<double>(k) / parts;
+          const double px = std::lerp(x.at(s.x[before]), x.at(s.x[i]), share);
+          const double py = std::lerp(y.at(s.y[before]), y.at(s.y[i]), share);
+          if (px > column && px < column + legend_width && py > row && py < row + rows) ++within;
+        }
+      }
+    return within;
+  };
+  const double columns[] = {width - right - legend_width, left + 8},
+               heights[] = {top, height - bottom - rows};
+  std::array<double, 2> best{columns[0], heights[0]};
+  int least = points_within(best[0], best[1]);
+  for (const double row : heights)
+    for (const double column : columns) {
+      const int within = points_within(column, row);
+      if (within < least) {
+        least = within;
+        best = {column, row};
+      }
+    }
+  return best;
+}
+
 std::string drawn(const LineChart& chart) {
   const Axis x = axis_of(chart.series, &Series::x, chart.log_x, left, width - right);
-  const Axis y = axis_of(chart.series, &Series::y, chart.log_y, height - bottom, top);
+  Axis y = axis_of(chart.series, &Series::y, chart.log_y, height - bottom, top);
+  if (chart.y_range) {
+    y.least = chart.log_y ? std::log10(chart.y_range->front()) : chart.y_range->front();
+    y.greatest = chart.log_y ? std::log10(chart.y_range->back()) : chart.y_range->back();
+  }
   std::string out =
       fmt::format("<text x=\"{}\" y=\"22\" font-size=\"15\">{}</text>\n", left, escaped(chart.title));
   for (const double tick : x.ticks())
@@ -95,6 +134,7 @@ std::string drawn(const LineChart& chart) {
                      0.5 * (left + width - right), height - 14, escaped(chart.x_label));
   out += fmt::format("<text transform=\"translate(16,{}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n",
                      0.5 * (top + height - bottom), escaped(chart.y_label));
+  const auto [column, first_row] = legend_place(chart, x, y);
   for (std::size_t k = 0; k < chart.series.size(); ++k) {
     const Series& series = chart.series[k];
     const char* const colour = colours[k % colours.size()];
@@ -108,7 +148,8 @@ std::string drawn(const LineChart& chart) {
       for (std::size_t i = 0; i < series.x.size(); ++i)
         out += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"2.6\" fill=\"{}\"/>\n", x.at(series.x[i]),
                            y.at(series.y[i]), colour);
-    const double row = top + 16 + 17 * static_cast<double>(k), column = width - right - 150;
+    if (chart.series.size() == 1) continue;
+    const double row = first_row + 16 + row_height * static_cast<double>(k);
     if (series.line)
       out += fmt::format("<path d=\"M{},{}h22\" stroke=\"{}\" stroke-width=\"1.4\"/>\n", column, row - 4,
                          colour);
@@ -122,14 +163,15 @@ std::string drawn(const LineChart& chart) {
 
 }  // namespace
 
-std::string svg(const std::vector<LineChart>& charts) {
+std::string svg(const std::vector<LineChart>& charts, int columns) {
+  const int count = static_cast<int>(charts.size()), rows = (count + columns - 1) / columns;
   std::string out = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {} {}\" font-family=\"sans-serif\" "
       "font-size=\"12\">\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n",
-      width * static_cast<double>(charts.size()), height);
-  for (std::size_t k = 0; k < charts.size(); ++k)
-    out += fmt::format("<g transform=\"translate({},0)\">\n{}</g>\n", width * static_cast<double>(k),
-                       drawn(charts[k]));
+      width * std::min(count, columns), height * rows);
+  for (int k = 0; k < count; ++k)
+    out += fmt::format("<g transform=\"translate({},{})\">\n{}</g>\n", width * (k % columns),
+                       height * (k / columns), drawn(charts[static_cast<std::size_t>(k)]));
   return out + "</svg>\n";
 }
 

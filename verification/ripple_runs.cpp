@@ -10,21 +10,19 @@
 #include <cmath>
 #include <exception>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "axisym/axisym_tier.hpp"
 #include "core/observables/result.hpp"
+#include "verification/line_chart.hpp"
+#include "verification/page.hpp"
 
 using namespace tunica;
+using namespace tunica::verification;
 
 namespace {
 
-constexpr std::string_view first_mark = "<!-- runs: written by tunica_ripple_runs, do not edit -->\n";
-constexpr std::string_view last_mark = "<!-- end of runs -->\n";
 constexpr double thickness = 0.01;  // cm
 constexpr double length = 0.66;     // cm
 /// Flow that grows within 0.05 s and is then held, so that the pressure stays where the wall ripples most.
@@ -50,6 +48,7 @@ struct Line {
 };
 struct Outcome {
   Line lumen;              ///< at the last time that was reached
+  double middle_cell = 0;  ///< length of the cells at mid-length, in thicknesses
   double amplitude = 0;    ///< greatest departure from a smooth shape, in thicknesses
   double wave_length = 0;  ///< in thicknesses; 0 without ripples
   double onset = 0;        ///< s; 0 without ripples
@@ -127,6 +126,10 @@ Outcome run(const std::filesystem::path& file, const Case& c) {
         ripples_now && changes > 1 ? 2 * (parts.back().first - parts.front().first) / changes / thickness : 0;
     outcome.lumen = std::move(line);
   }
+  const auto& line = outcome.lumen.z;
+  const std::size_t middle = line.size() / 2;
+  const double places = static_cast<double>(line.size() - 1) / c.axial_cells;  // in a cell
+  outcome.middle_cell = places * (line[middle + 1] - line[middle]) / thickness;
   return outcome;
 }
 
@@ -135,51 +138,31 @@ std::string name(const Case& c) {
 }
 
 std::string table(const std::vector<Outcome>& outcomes) {
-  std::string text =
-      "\n| Law | mmHg | Element | Wall cells | Axial cells | Cell, h | Step, s | Ripples > 0.01 h from | "
-      "Amplitude at the "
-      "end | Wave "
-      "length | Ended |\n|---|---|---|---|---|---|---|---|---|---|---|\n";
+  std::vector<std::vector<std::string>> rows;
   for (std::size_t k = 0; k < outcomes.size(); ++k) {
     const Case& c = cases[k];
     const Outcome& o = outcomes[k];
-    text +=
-        fmt::format("| {} | {:g} | {} | {} | {} | {:.1f} | {:g} | {} | {:.2g} h | {} | {} |\n", c.law,
-                    c.pressure, c.element, c.wall_cells, c.axial_cells, length / c.axial_cells / thickness,
-                    c.step, o.onset > 0 ? fmt::format("{:.3f} s", o.onset) : "–", o.amplitude,
-                    o.wave_length > 0 ? fmt::format("{:.1f} h", o.wave_length) : "–", o.ended);
+    rows.push_back({c.law, fmt::format("{:g}", c.pressure), c.element, std::to_string(c.wall_cells),
+                    std::to_string(c.axial_cells), fmt::format("{:.1f}", o.middle_cell),
+                    fmt::format("{:g}", c.step), o.onset > 0 ? fmt::format("{:.3f} s", o.onset) : "–",
+                    fmt::format("{:.2g} h", o.amplitude),
+                    o.wave_length > 0 ? fmt::format("{:.1f} h", o.wave_length) : "–", o.ended});
   }
-  return text + "\n";
+  return markdown_table({"Law", "mmHg", "Element", "Wall cells", "Axial cells", "Cell at mid-length, h",
+                         "Step, s", "Ripples > 0.01 h from", "Amplitude at the end", "Wave length", "Ended"},
+                        rows);
 }
 
-/// The lumen's radius along the artery, one curve under another.
+/// The lumen's radius along the artery.
 std::string picture(const std::vector<std::size_t>& shown, const std::vector<Outcome>& outcomes) {
-  constexpr double width = 760, row = 120, left = 60, top = 26;
-  const double height = row * static_cast<double>(shown.size()) + 40;
-  std::string svg = fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" font-family=\"sans-serif\" "
-      "font-size=\"12\"><rect width=\"{0}\" height=\"{1}\" fill=\"white\"/>\n",
-      width, height);
-  const auto x = [&](double z) { return left + z / length * (width - left - 20); };
-  for (std::size_t k = 0; k < shown.size(); ++k) {
-    const Outcome& o = outcomes[shown[k]];
-    const double base = top + row * static_cast<double>(k + 1) - 24;
-    const auto y = [&](double radius) { return base - (radius - 0.03) / 0.03 * (row - 44); };
-    svg += fmt::format("<text x=\"{}\" y=\"{}\">{}</text>\n", left, base - row + 40, name(cases[shown[k]]));
-    for (const double r : {0.03, 0.045, 0.06})
-      svg += fmt::format(
-          "<line x1=\"{0}\" x2=\"{1}\" y1=\"{2:.1f}\" y2=\"{2:.1f}\" stroke=\"#ddd\"/><text x=\"{3}\" "
-          "y=\"{4:.1f}\" text-anchor=\"end\">{5}</text>\n",
-          x(0), x(length), y(r), left - 6, y(r) + 4, r);
-    svg += "<polyline fill=\"none\" stroke=\"#b03030\" stroke-width=\"1.2\" points=\"";
-    for (std::size_t n = 0; n < o.lumen.z.size(); ++n)
-      svg += fmt::format("{:.1f},{:.1f} ", x(o.lumen.z[n]), y(o.lumen.radius[n]));
-    svg += "\"/>\n";
+  std::vector<LineChart> charts;
+  for (const std::size_t k : shown) {
+    LineChart chart{
+        name(cases[k]), "z [cm]", "lumen radius [cm]", {{"", outcomes[k].lumen.z, outcomes[k].lumen.radius}}};
+    chart.y_range = {0.03, 0.06};
+    charts.push_back(chart);
   }
-  svg += fmt::format(
-      "<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">z from 0 to {} cm; lumen radius in cm</text>\n",
-      x(length / 2), height - 12, length);
-  return svg + "</svg>\n";
+  return svg(charts, 2);
 }
 
 }  // namespace
@@ -190,12 +173,7 @@ int main(int count, char** arguments) {
     return 2;
   }
   try {
-    std::ifstream file(arguments[1]);
-    if (!file) throw std::runtime_error(fmt::format("{} cannot be read", arguments[1]));
-    const std::string page{std::istreambuf_iterator<char>(file), {}};
-    const std::size_t begin = page.find(first_mark), finish = page.find(last_mark);
-    if (begin == std::string::npos || finish == std::string::npos || finish < begin)
-      throw std::runtime_error(fmt::format("the page lacks the marks {} and {}", first_mark, last_mark));
+    const Page page(arguments[1], "runs", "tunica_ripple_runs");
     std::vector<Outcome> outcomes;
     std::string csv = "case,z[cm],lumen_radius[cm]\n";
     for (const Case& c : cases) {
@@ -209,8 +187,7 @@ int main(int count, char** arguments) {
                  outcomes.back().amplitude, outcomes.back().wave_length, outcomes.back().ended);
       std::fflush(stdout);
     }
-    write_whole(arguments[1],
-                page.substr(0, begin + first_mark.size()) + table(outcomes) + page.substr(finish));
+    page.write(table(outcomes));
     write_whole(arguments[3], picture({0, 2, 3, 6, 9, 11}, outcomes));
     if (count == 5) write_whole(arguments[4], csv);
   } catch (const std::exception& error) {
