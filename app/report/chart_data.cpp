@@ -23,6 +23,7 @@ constexpr int time_digits = 10;  // times of different runs are compared by the 
 
 /// The unit that the charts show a column in, as a number of the column's own.
 double display_unit(const Column& column) {
+  if (column.name == "wall_shear_stress") return 1.0;
   if (column.name.starts_with("von_mises")) return stress_unit;
   return column.unit == "dyn/cm2" ? mmhg : 1.0;
 }
@@ -82,12 +83,12 @@ void append_intervals(Object& run, const RunSummary& summary) {
   }
 }
 
-/// Rows of profiles.csv that belong to one time.
-void append_profiles(Object& run, const RunSummary& summary) {
-  const Table& table = summary.stored->result.profiles;
+/// Curves at a few times, through the wall or along the artery: the rows of a table that belong to one time
+/// each.
+void append_profiles(Object& run, const char* name, const Table& table, const RunSummary& summary) {
   const Column* time = table.find("time");
   if (!time || time->values.empty()) return;
-  std::string& json = run.key("profiles");
+  std::string& json = run.key(name);
   json += '[';
   for (std::size_t first = 0; first < table.rows();) {
     std::size_t end = first;
@@ -174,7 +175,8 @@ std::string chart_data(const std::vector<RunSummary>& runs) {
       append_array(run.key("time"), summary.stored->result.observables.find("time")->values, 1, time_digits);
       append_columns(run, summary.stored->result.observables);
       append_intervals(run, summary);
-      append_profiles(run, summary);
+      append_profiles(run, "profiles", summary.stored->result.profiles, summary);
+      append_profiles(run, "along", summary.stored->result.along, summary);
       append_sensitivities(run, summary);
     }
     json += ']';

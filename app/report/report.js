@@ -129,21 +129,48 @@
     figures.push(figure);
   }
 
-  function profileChart(spec, column) {
-    const parent = document.getElementById("profile-charts");
-    const times = [...new Set(runs.flatMap(run => (run.profiles || []).map(profile => profile.time.toFixed(4))))]
+  // Curves at a few times: through the wall (profiles) or along the artery.
+  const places = {
+    profiles: {place: "reference_radius", label: "radius in the unloaded wall, cm", why: "no profiles among the results"},
+    along: {place: "z", label: "distance from the inlet, cm", why: "no curves along the artery among the results"},
+  };
+  function profileChart(table, spec, column) {
+    const {place, label, why: without} = places[table];
+    const parent = document.getElementById(`${table === "along" ? "along" : "profile"}-charts`);
+    const times = [...new Set(runs.flatMap(run => (run[table] || []).map(profile => profile.time.toFixed(4))))]
       .sort((a, b) => a - b);
     const lines = [];
-    runs.forEach((run, at) => (run.profiles || []).forEach(profile => {
-      if (profile.columns[column] && profile.columns.reference_radius)
+    runs.forEach((run, at) => (run[table] || []).forEach(profile => {
+      if (profile.columns[column] && profile.columns[place])
         lines.push({run: at, runLabel: run.label, part: times.indexOf(profile.time.toFixed(4)),
-                    partLabel: `${Number(profile.time.toFixed(4))} s`, x: profile.columns.reference_radius, y: profile.columns[column]});
+                    partLabel: `${Number(profile.time.toFixed(4))} s`, x: profile.columns[place], y: profile.columns[column]});
     }));
-    const why = spec.why || "no profiles among the results";
+    const why = spec.why || without;
     if (!lines.length) return note(parent, `${spec.title}: ${why}.`);
     figures.push(new Figure(parent, {
-      sync: "radius", xLabel: () => "radius in the unloaded wall, cm", digits: 3, ...spec, lines, caption: missing(lines, why),
+      sync: place, xLabel: () => label, digits: 3, ...spec, lines,
+      caption: [spec.caption, missing(lines, why)].filter(Boolean).join(" "),
+      range: spec.insideOnly && (() => insideRange(lines)),
     }));
+  }
+  // What becomes singular at clamped ends would leave the rest of its curve flat.
+  function insideRange(lines) {
+    const values = lines.filter(line => line.shown !== false).flatMap(line =>
+      line.y.filter((y, at) => y !== null && line.x[at] > .1 * line.x.at(-1) && line.x[at] < .9 * line.x.at(-1)));
+    const least = Math.min(...values), greatest = Math.max(...values);
+    const margin = .3 * (greatest - least) || .1 * Math.abs(greatest) || 1;
+    return [least - margin, greatest + margin];
+  }
+  // Only the tiers that know the length have something to show.
+  function alongCharts() {
+    if (!runs.some(run => run.along)) return;
+    document.getElementById("along-section").hidden = false;
+    profileChart("along", {id: "along-radius", title: "Radius of the lumen", unit: "cm", digits: 5}, "lumen_radius");
+    profileChart("along", {id: "along-pressure", title: "Pressure at the wall", unit: "mmHg", digits: 2}, "pressure");
+    profileChart("along", {id: "along-shear", title: "Wall shear stress", unit: "dyn/cm²", digits: 2,
+      insideOnly: true, caption: "Scaled for what is away from the ends."}, "wall_shear_stress");
+    profileChart("along", {id: "along-mises", title: "Von Mises stress on the inner surface", unit: "10\u2075 dyn/cm²",
+      insideOnly: true, caption: "Scaled for what is away from the ends."}, "von_mises.inner");
   }
 
   function sensitivityChart() {
@@ -233,9 +260,10 @@
   timeChart({id: "recruitment", title: "Recruitment H", figure: "cf. Fig. 14c", digits: 3, why: "no fibres", range: () => [-.06, 1.06]},
             atPoints("recruitment"));
   intervalChart();
-  profileChart({id: "profile-circumferential", title: "Circumferential stretch", digits: 4}, "circumferential_stretch");
-  profileChart({id: "profile-fiber", title: "Fibre stretch", digits: 4, why: "no fibres"}, "fiber_stretch");
-  profileChart({id: "profile-mises", title: "Von Mises stress", unit: "10\u2075 dyn/cm²", figure: "cf. Figs. 15–16"}, "von_mises");
+  profileChart("profiles", {id: "profile-circumferential", title: "Circumferential stretch", digits: 4}, "circumferential_stretch");
+  profileChart("profiles", {id: "profile-fiber", title: "Fibre stretch", digits: 4, why: "no fibres"}, "fiber_stretch");
+  profileChart("profiles", {id: "profile-mises", title: "Von Mises stress", unit: "10\u2075 dyn/cm²", figure: "cf. Figs. 15–16"}, "von_mises");
+  alongCharts();
   sensitivityChart();
 
   // With several runs, a button for each hides or shows it in all charts.

@@ -51,11 +51,23 @@ class Report(unittest.TestCase):
 
     def test_one_run(self):
         self.opens("one", 13)
+        self.assertTrue(self.value("document.getElementById('along-section').hidden"))
 
     def test_four_laws_with_sensitivities(self):
         self.opens("four", 14)
         self.assertFalse(self.value("document.getElementById('sensitivity-section').hidden"))
         self.assertIn("outlet.resistance", self.value("document.getElementById('chart-sensitivity').textContent"))
+
+    def test_curves_along_the_artery(self):
+        self.opens("length", 17)
+        self.assertFalse(self.value("document.getElementById('along-section').hidden"))
+        chart = "document.getElementById('chart-along-pressure')"
+        self.assertIn("Not shown: ", self.value(f"{chart}.textContent"))
+        label = self.value(f"{chart}.querySelector('canvas').getAttribute('aria-label')")
+        self.assertIn("90.00 to 100.00", label)
+        # In dyn/cm2, which is a stress but no pressure.
+        label = self.value("document.querySelector('#chart-along-shear canvas').getAttribute('aria-label')")
+        self.assertIn("20.22 to 25.22", label)
 
     def test_tiers_compared(self):
         self.opens("verify", 14)

@@ -75,6 +75,8 @@ int main(int count, char** arguments) {
   const std::filesystem::path folder = arguments[1];
   write_whole(folder / "four.html", make_report(four_laws()));
   write_whole(folder / "one.html", make_report({synthetic_run({})}));
+  write_whole(folder / "length.html",
+              make_report({synthetic_run({.with_length = true}), synthetic_run({.law = "EXP1"})}));
   write_whole(folder / "isotropic.html", make_report({synthetic_run({.law = "EXP1"})}));
   write_whole(folder / "hostile.html", make_report({hostile()}));
   write_whole(folder / "grids.html", make_report({synthetic_run({.law = "EXP1"}), finer_in_time()}));

@@ -74,6 +74,27 @@ void add_profiles(Result& result, const SyntheticRun& wanted, bool fibers) {
   }
 }
 
+/// A parabola of the radius, and pressure that falls in a straight line from 100 to 90 mmHg.
+void add_along(Result& result) {
+  Table& along = result.along;
+  for (const auto& [name, unit] : {std::pair{"time", "s"},
+                                   {"z", "cm"},
+                                   {"lumen_radius", "cm"},
+                                   {"pressure", "dyn/cm2"},
+                                   {"wall_shear_stress", "dyn/cm2"},
+                                   {"radial_displacement", "cm"},
+                                   {"von_mises.inner", "dyn/cm2"}})
+    along.add(name, unit);
+  for (const double time : {0.8, 1.0112})
+    for (int index = 0; index <= 20; ++index) {
+      const double s = index / 20.0, opened = 0.04 * s * (1 - s) * time;
+      std::size_t column = 0;
+      for (const double value : {time, 0.66 * s, 0.033 + opened, (100 - 10 * s) * mmhg, 20 * time + 5 * s,
+                                 opened, 4e5 * time * (1 + s)})
+        along[column++].values.push_back(value);
+    }
+}
+
 void add_events(Result& result, const SyntheticRun& wanted) {
   for (int index = 0; index < wall_points; ++index) {
     const double half = period / (2 * std::numbers::pi) * std::acos(2 * synthetic_thresholds[index] - 1);
@@ -170,6 +191,7 @@ StoredResult synthetic_run(const SyntheticRun& wanted) {
   add_profiles(result, wanted, fibers);
   result.events = event_table();
   if (fibers) add_events(result, wanted);
+  if (wanted.with_length) add_along(result);
   if (wanted.with_sensitivities) add_sensitivities(result);
   return stored;
 }

@@ -19,6 +19,7 @@ struct SyntheticRun {
   double highest_pressure = 130;      ///< mmHg
   double displacement_scale = 0.020;  ///< cm on the inner surface at the highest pressure
   bool with_sensitivities = false;
+  bool with_length = false;  ///< curves along the artery
 };
 
 /// A result as read_result would return it. In the last beat pressure is exactly
