@@ -114,8 +114,7 @@ class Solver {
       for (const int node : layout.wall_nodes())
         for (int c = 0; c < 2; ++c) history[layout.velocity(node, c)] = 0;
       candidate = state;
-      const auto report =
-          newton_.solve({time_, coefficient, history}, candidate, {tolerance_, most_iterations});
+      auto report = newton_.solve({time_, coefficient, history}, candidate, {tolerance_, most_iterations});
       iterations += std::max(1, report.iterations);
       if (report.converged) {
         state = candidate;
