@@ -61,6 +61,9 @@ bool is_loaded(const Problem& problem, const SideTable& side) {
   }
 }
 
+/// On fewer cells a residual takes less than a millisecond, and threads are not worth their making.
+constexpr int least_shared_cells = 500;
+
 /// Tables of the cells, and of the sides that have something to do.
 Tables needed_tables(const Problem& problem) {
   Tables tables = tabulate(problem);
@@ -75,8 +78,12 @@ Tables needed_tables(const Problem& problem) {
 
 }  // namespace
 
-Assembler::Assembler(const Problem& problem)
-    : problem_(problem), layout_(problem), tables_(needed_tables(problem)), map_(problem, layout_, tables_) {}
+Assembler::Assembler(const Problem& problem, int threads)
+    : problem_(problem),
+      threads_(static_cast<int>(problem.mesh.cells.size()) < least_shared_cells ? 1 : threads),
+      layout_(problem),
+      tables_(needed_tables(problem)),
+      map_(problem, layout_, tables_) {}
 
 void Assembler::complete(const Stage& stage, std::span<double> y) const {
   const Vector<double> zero{};
@@ -102,24 +109,19 @@ bool Assembler::residual(const Stage& stage, std::span<const double> y, std::spa
   const auto wall_count = static_cast<int>(tables_.wall.size());
   std::vector<BloodResidual> blood(tables_.blood.size());
   std::vector<WallResidual> wall(tables_.wall.size());
-  // On few cells waiting for each other takes threads longer than the work.
-  const bool share = blood_count + wall_count > 1000;
-#pragma omp parallel if (share)
-  {
-#pragma omp for schedule(static) nowait
-    for (int k = 0; k < blood_count; ++k) {
-      const BloodTable& table = tables_.blood[k];
+  for_each_index(threads_, blood_count + wall_count, [&](int index) {
+    if (index < blood_count) {
+      const BloodTable& table = tables_.blood[index];
       const auto nodes = blood_nodes(problem_, layout_, problem_.mesh.cells[table.cell], stage, y);
       const auto parameters = blood_parameters(problem_, table, stage);
-      for (const auto& at : table.points) kernel::add_blood_residual(parameters, at, nodes, blood[k]);
-    }
-#pragma omp for schedule(static)
-    for (int k = 0; k < wall_count; ++k) {
+      for (const auto& at : table.points) kernel::add_blood_residual(parameters, at, nodes, blood[index]);
+    } else {
+      const int k = index - blood_count;
       const WallTable& table = tables_.wall[k];
       const auto nodes = wall_nodes(problem_, layout_, problem_.mesh.cells[table.cell], stage, y);
       kernel::add_wall_residual(wall_parameters(problem_, table, stage), table.points, nodes, wall[k]);
     }
-  }
+  });
   std::fill(residual.begin(), residual.end(), 0.0);
   least_ = {};
   const auto watch = [this](double jacobian, int cell) {
@@ -222,33 +224,31 @@ void Assembler::tangent(const Stage& stage, std::span<const double> y, SparseMat
   const double c = stage.coefficient;
   // Cells are computed side by side and added in their order, so that sums do not depend on threads.
   constexpr int batch = 64;
-  // On few cells, and the more so on a busy machine, threads wait longer for each other than they work.
-  const bool share = blood_count + wall_count > batch;
   std::vector<BloodTangent> blood(batch);
   for (int first = 0; first < blood_count; first += batch) {
     const int last = std::min(first + batch, blood_count);
-#pragma omp parallel for schedule(dynamic, 4) if (share)
-    for (int k = first; k < last; ++k) {
+    for_each_index(threads_, last - first, [&](int index) {
+      const int k = first + index;
       const BloodTable& table = tables_.blood[k];
       const auto nodes = blood_nodes(problem_, layout_, problem_.mesh.cells[table.cell], stage, y);
       const auto parameters = blood_parameters(problem_, table, stage);
-      BloodTangent& t = blood[k - first];
+      BloodTangent& t = blood[index];
       t = {};
       for (const auto& at : table.points) kernel::add_blood_tangent(parameters, at, nodes, t);
-    }
+    });
     for (int k = first; k < last; ++k) scatter(blood[k - first], map_.blood()[k], c, values);
   }
   std::vector<WallTangent> wall(batch);
   for (int first = 0; first < wall_count; first += batch) {
     const int last = std::min(first + batch, wall_count);
-#pragma omp parallel for schedule(dynamic, 4) if (share)
-    for (int k = first; k < last; ++k) {
+    for_each_index(threads_, last - first, [&](int index) {
+      const int k = first + index;
       const WallTable& table = tables_.wall[k];
       const auto nodes = wall_nodes(problem_, layout_, problem_.mesh.cells[table.cell], stage, y);
-      WallTangent& t = wall[k - first];
+      WallTangent& t = wall[index];
       t = {};
       kernel::add_wall_tangent(wall_parameters(problem_, table, stage), table.points, nodes, t);
-    }
+    });
     for (int k = first; k < last; ++k) scatter(wall[k - first], map_.wall()[k], c, values);
   }
   for (std::size_t s = 0; s < tables_.sides.size(); ++s) {

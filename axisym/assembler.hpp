@@ -4,6 +4,7 @@
 #include <span>
 
 #include "axisym/matrix_map.hpp"
+#include "core/threads.hpp"
 
 namespace tunica::axisym {
 
@@ -28,8 +29,9 @@ struct LeastJacobian {
 /// scalars <- their own equations. The derivative is exact, by duals, the motion of the mesh included.
 class Assembler {
  public:
-  /// The problem must outlive it.
-  explicit Assembler(const Problem& problem);
+  /// The problem must outlive it. On meshes of a few hundred cells and more so many threads share the work;
+  /// results do not depend on them.
+  explicit Assembler(const Problem& problem, int threads = available_threads());
   Assembler(const Assembler&) = delete;
   Assembler& operator=(const Assembler&) = delete;
 
@@ -62,6 +64,7 @@ class Assembler {
   void add_loads(double time, std::span<double> residual) const;
 
   const Problem& problem_;
+  int threads_;
   Layout layout_;
   Tables tables_;
   MatrixMap map_;

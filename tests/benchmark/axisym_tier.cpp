@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Time of the 2D tier on scenes/cylinder.toml: residual, derivative, factorisation, solution, a step, a run.
 #include <benchmark/benchmark.h>
-#include <omp.h>
+#include <sched.h>
 
 #include <array>
 #include <memory>
@@ -35,6 +35,14 @@ SimulationOptions fixed_steps(const Setup& setup) {
   return options;
 }
 
+/// The tier takes as many threads as the process may use cores.
+void use_cores(int count) {
+  cpu_set_t cores;
+  CPU_ZERO(&cores);
+  for (int k = 0; k < count; ++k) CPU_SET(k, &cores);
+  if (sched_setaffinity(0, sizeof cores, &cores) != 0) throw std::runtime_error("cores cannot be chosen");
+}
+
 /// The artery in the middle of its first systole, resolved for 0.1 % (argument: threads).
 class Artery : public benchmark::Fixture {
  public:
@@ -42,7 +50,7 @@ class Artery : public benchmark::Fixture {
   using benchmark::Fixture::TearDown;
 
   void SetUp(benchmark::State& state) override {
-    omp_set_num_threads(static_cast<int>(state.range(0)));
+    use_cores(static_cast<int>(state.range(0)));
     vessel_ = setup_of(cylinder({"accuracy.tolerance=1e-3"}));
     simulation_ = std::make_unique<Simulation>(vessel_->problem, fixed_steps(*vessel_));
     simulation_->start(0, std::vector<double>(simulation_->layout().size(), 0.0));
@@ -140,7 +148,7 @@ void run(benchmark::State& state) {
   constexpr std::array laws{"EXP1", "EXP2", "EXP1+EXP2-ZS", "EXP1+EXP2-FS"};
   const std::string law = laws[static_cast<std::size_t>(state.range(0))];
   const double tolerance = 1.0 / static_cast<double>(state.range(1));
-  omp_set_num_threads(static_cast<int>(state.range(2)));
+  use_cores(static_cast<int>(state.range(2)));
   const Scene scene = cylinder({"wall.law=" + law, "accuracy.tolerance=" + std::to_string(tolerance)});
   RunRecord record;
   for (auto _ : state) {

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <thread>
+#include <vector>
+
+namespace tunica {
+
+/// Threads that the machine lets this process have (fewer than its cores under taskset).
+inline int available_threads() {
+  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+/// Calls body(k) for k = 0 to count - 1, in any order, side by side. The threads are made for the call and
+/// are gone after it, so that none takes time while it has nothing to do; that costs some 20 microseconds
+/// each, for work of a millisecond or more. The body must not throw.
+template <class Body>
+void for_each_index(int threads, int count, const Body& body) {
+  constexpr int chunk = 4;
+  threads = std::min(threads, (count + chunk - 1) / chunk);
+  if (threads <= 1) {
+    for (int k = 0; k < count; ++k) body(k);
+    return;
+  }
+  std::atomic<int> next{0};
+  const auto work = [&] {
+    for (int first = next.fetch_add(chunk); first < count; first = next.fetch_add(chunk))
+      for (int k = first; k < std::min(first + chunk, count); ++k) body(k);
+  };
+  std::vector<std::jthread> others;
+  for (int t = 1; t < threads; ++t) others.emplace_back(work);
+  work();
+}
+
+}  // namespace tunica
