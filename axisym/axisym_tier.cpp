@@ -11,6 +11,7 @@
 #include "axisym/fields.hpp"
 #include "axisym/limit_cycle.hpp"
 #include "axisym/observer.hpp"
+#include "axisym/remarks.hpp"
 #include "axisym/setup.hpp"
 #include "axisym/simulation.hpp"
 #include "axisym/static_state.hpp"
@@ -97,10 +98,7 @@ class AxisymRun final : public TierRun {
       result_.record.failure = fmt::format("{}: {}", where(), failure.what());
       if (phase_ != Phase::steady)
         result_.record.failure += limit_of_wall(setup_->ring.get(), setup_->expected_pressure);
-      if (phase_ == Phase::beats && simulation_.time() == 0 && scene_.text("time.start") == "rest" &&
-          setup_->inlet.ramp == 0)
-        result_.record.failure +=
-            "; with time.ramp = 0 the load comes as a blow, give it a ramp such as 0.05 s";
+      result_.record.failure += hint_of_blow();
     }
     log_.store(result_, end_, result_.record.converged && !is_static_);
     count();
@@ -144,6 +142,7 @@ class AxisymRun final : public TierRun {
       else
         record.resolution["local_tolerance"] = r.local_tolerance;
     }
+    warnings_ = remarks_on_unused_keys(scene_, *setup_);
     const bool may_ripple =
         problem.tether.traction != radial::TetherTraction::normal || problem.tether.stiffness == 0;
     if (may_ripple && setup_->ring && scene_.text("geometry.kind") != "mesh")
@@ -151,7 +150,18 @@ class AxisymRun final : public TierRun {
         warnings_.push_back(*warning);
     record.remarks = scene_.remarks();
     record.remarks.insert(record.remarks.end(), warnings_.begin(), warnings_.end());
-    record.remarks.insert(record.remarks.end(), setup_->remarks.begin(), setup_->remarks.end());
+  }
+
+  /// A load that is there at once sends a wave through wall and blood that few meshes bear.
+  std::string hint_of_blow() const {
+    const double at_once = 0.01 * setup_->inlet.period, ramp = setup_->inlet.ramp;
+    const bool is_blow = phase_ == Phase::beats && scene_.text("time.start") == "rest" && ramp < at_once &&
+                         simulation_.time() < at_once;
+    return is_blow ? fmt::format(
+                         "; with time.ramp = {:g} s the load comes as a blow, give it a ramp such as "
+                         "{:g} s",
+                         ramp, setup_->inlet.period / 16)
+                   : "";
   }
 
   /// Where the run stands, as in "the solver gave up ...".
@@ -181,9 +191,11 @@ class AxisymRun final : public TierRun {
     record.rejected_steps = simulation_.step_counts().rejected_by_error +
                             simulation_.step_counts().rejected_by_solver + static_.rejected;
     record.newton_iterations = before_.newton + newton.iterations + static_.coarse.iterations;
-    record.linear_iterations = before_.solves + newton.residuals + static_.coarse.residuals;
+    record.linear_iterations = before_.solves + newton.solves + static_.coarse.solves;
     record.resolution["factorisations"] =
         before_.factorisations + newton.factorisations + static_.coarse.factorisations;
+    if (is_static_ || scene_.text("time.start") != "rest")
+      record.resolution["static_guesses_missed"] = static_.guesses_missed;
     record.resolution["factor_entries"] = simulation_.factor_entries();
     record.resolution["least_jacobian"] = simulation_.least_jacobian();
   }
@@ -374,15 +386,15 @@ class AxisymRun final : public TierRun {
     saved.so_far = result_;
     saved.so_far.record.solve_seconds = seconds;
     log_.store(saved.so_far, end_, false);
-    saved.state = {
-        {"simulation", simulation_.save()},
-        {"next_stop", next_stop_},
-        {"last_beat_begun", last_beat_begun()},
-        {"event_values", pack(event_values_)},
-        {"events", log_.save()},
-        {"counts",
-         {result_.record.newton_iterations, result_.record.linear_iterations,
-          result_.record.resolution["factorisations"].get<long>(), static_.load_steps, static_.rejected}}};
+    saved.state = {{"simulation", simulation_.save()},
+                   {"next_stop", next_stop_},
+                   {"last_beat_begun", last_beat_begun()},
+                   {"event_values", pack(event_values_)},
+                   {"events", log_.save()},
+                   {"counts",
+                    {result_.record.newton_iterations, result_.record.linear_iterations,
+                     result_.record.resolution["factorisations"].get<long>(), static_.load_steps,
+                     static_.rejected, static_.guesses_missed}}};
     return saved;
   }
 
@@ -404,7 +416,8 @@ class AxisymRun final : public TierRun {
     log_.restore(saved.state.at("events"), result_.events);
     const auto counts = saved.state.at("counts").get<std::vector<long>>();
     before_ = {counts.at(0), counts.at(1), counts.at(2)};
-    static_ = {static_cast<int>(counts.at(3)), static_cast<int>(counts.at(4)), {}};
+    static_ = {
+        static_cast<int>(counts.at(3)), static_cast<int>(counts.at(4)), static_cast<int>(counts.at(5)), {}};
   }
 
   enum class Phase { steady, limit_cycle, beats };

@@ -26,7 +26,6 @@ void Newton::forget() {
 }
 
 bool Newton::evaluate(const Stage& stage, std::span<double> y) {
-  ++counts_.residuals;
   assembler_.complete(stage, y);
   return assembler_.residual(stage, y, residual_);
 }
@@ -38,7 +37,8 @@ bool Newton::factorise(const Stage& stage, std::span<double> y) {
   return factorised_;
 }
 
-void Newton::correct(std::vector<double>& correction) const {
+void Newton::correct(std::vector<double>& correction) {
+  ++counts_.solves;
   correction.assign(residual_.begin(), residual_.end());
   solver_.solve(correction);
   for (double& entry : correction) entry = -entry;

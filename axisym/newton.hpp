@@ -27,12 +27,12 @@ struct NewtonReport {
 
 /// Counts since the solver was made.
 struct NewtonCounts {
-  long iterations = 0, factorisations = 0, residuals = 0;
+  long iterations = 0, factorisations = 0, solves = 0;
 
   NewtonCounts& operator+=(const NewtonCounts& other) {
     iterations += other.iterations;
     factorisations += other.factorisations;
-    residuals += other.residuals;
+    solves += other.solves;
     return *this;
   }
 };
@@ -73,7 +73,7 @@ class Newton {
   bool evaluate(const Stage& stage, std::span<double> y);
   bool factorise(const Stage& stage, std::span<double> y);
   /// correction = -(derivative)^-1 residual
-  void correct(std::vector<double>& correction) const;
+  void correct(std::vector<double>& correction);
   void add(std::span<double> y, double factor, const std::vector<double>& correction) const;
   Sizes sizes_with(std::span<const double> y) const;
   /// Sets the weights by the sizes so far and those of y, which are not kept: iterates may be far off.

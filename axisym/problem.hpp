@@ -26,8 +26,8 @@ struct Discretisation {
   /// Interpolate the wall pressure on its own, so that nearly incompressible tissue does not lock. Laws
   /// without a volumetric split, and the bubble element, use the law's own stress.
   bool mixed_wall = true;
-  /// Make small cells of the blood's mesh stiffer (by the inverse of their size), which keeps them from
-  /// inverting under large motion of the wall.
+  /// Make small cells of the blood's mesh stiffer (by the inverse square of their size), which keeps them
+  /// from inverting under large motion of the wall.
   bool stiffened_mesh = false;
 };
 

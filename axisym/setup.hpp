@@ -25,7 +25,6 @@ struct Setup {
   double lumen_radius = 0;       ///< at mid-length, cm
   double expected_pressure = 0;  ///< greatest in the lumen, dyn/cm2, estimated from the outlet's resistance
   Newton::Sizes expected;        ///< sizes of the fields to come
-  std::vector<std::string> remarks;
 
   Setup() = default;
   Setup(const Setup&) = delete;

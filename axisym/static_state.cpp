@@ -17,38 +17,51 @@ namespace {
 
 constexpr double mmhg = 1333.22387;
 
-/// Displacement of the lumen that a ring of the wall at mid-length has under a pressure: what states under
-/// different loads are compared by, since it grows more evenly than the load. The load itself where there is
-/// no such ring.
+/// Displacement of the lumen, over its radius, that a ring of the wall at mid-length has under a share of the
+/// load: what states under different loads are compared by, since it grows more evenly than the load. The
+/// share itself where there is no ring or it does not bear the load.
 class RingMeasure {
  public:
-  explicit RingMeasure(const Setup& setup) : setup_(setup) {}
-
-  double at(double pressure) const {
-    if (!setup_.ring || pressure == 0) return pressure;
+  /// For loads from none to that of `pressure`.
+  RingMeasure(const Setup& setup, double pressure) : setup_(setup), pressure_(pressure) {
+    if (!setup.ring || pressure == 0) return;
     try {
-      const bool grows = pressure > 0;
-      double low = 1, high = grows ? 1.05 : 0.95;
-      const auto exceeds = [&](double stretch) {
-        const double p = setup_.ring->respond(stretch, {}, false).pressure;
-        return grows ? p > pressure : p < pressure;
-      };
-      while (!exceeds(high)) {
-        low = high;
-        high = 1 + (high - 1) * 1.6;
-        if (high > radial::WallCurve::greatest_stretch || high < radial::WallCurve::least_stretch)
-          return pressure;
+      double stretch = pressure > 0 ? 1.05 : 0.95;
+      while (!exceeds(stretch, pressure)) {
+        stretch = 1 + (stretch - 1) * 1.6;
+        if (stretch > radial::WallCurve::greatest_stretch || stretch < radial::WallCurve::least_stretch)
+          return;
       }
-      constexpr int halvings = 14;
-      for (int k = 0; k < halvings; ++k) (exceeds(0.5 * (low + high)) ? high : low) = 0.5 * (low + high);
-      return 0.5 * (low + high) - 1;
+      most_ = stretch - 1;
     } catch (const SolverFailure&) {
-      return pressure;
+      // Loads are the measure.
     }
   }
 
+  double at(double load) const {
+    if (most_ == 0) return load;
+    constexpr double precision = 1e-5;  // a load's least step changes it by more
+    double low = 0, high = most_;
+    try {
+      while (std::abs(high - low) > precision * std::abs(high)) {
+        const double middle = 0.5 * (low + high);
+        (exceeds(1 + middle, load * pressure_) ? high : low) = middle;
+      }
+    } catch (const SolverFailure&) {
+      return load * most_;
+    }
+    return 0.5 * (low + high);
+  }
+
  private:
+  bool exceeds(double stretch, double pressure) const {
+    const double p = setup_.ring->respond(stretch, {}, false).pressure;
+    return pressure_ > 0 ? p > pressure : p < pressure;
+  }
+
   const Setup& setup_;
+  double pressure_;
+  double most_ = 0;  ///< bound of the displacements over the radius; 0 where loads are the measure
 };
 
 /// States found so far and their measures, for a guess of the next by the polynomial through the last of
@@ -56,6 +69,10 @@ class RingMeasure {
 class Past {
  public:
   void add(double measure, const std::vector<double>& state) {
+    if (!measures_.empty() && measure == measures_.back()) {
+      states_.back() = state;
+      return;
+    }
     measures_.push_back(measure);
     states_.push_back(state);
     if (states_.size() <= 3) return;
@@ -158,7 +175,7 @@ double lumen_pressure(const Setup& setup, double time) {
 std::vector<double> climb(Setup& setup, Solver& solver, double pressure,
                           const std::function<bool()>& interrupted, StaticReport& report) {
   constexpr double step_pressure = 15 * mmhg;
-  const RingMeasure measure(setup);
+  const RingMeasure measure(setup, pressure);
   double increment = 1 / std::max(1.0, std::ceil(std::abs(pressure) / step_pressure));
   const double first = increment, smallest = increment / 32;
   Past past;
@@ -168,7 +185,7 @@ std::vector<double> climb(Setup& setup, Solver& solver, double pressure,
   while (reached < 1 && !interrupted()) {
     const double load = reached + increment > 1 - 1e-9 ? 1.0 : reached + increment;
     setup.load = load;
-    const double size = pressure == 0 ? load : measure.at(load * pressure);
+    const double size = measure.at(load);
     std::vector<double> state;
     NewtonReport solved;
     if (!past.is_first()) {
@@ -176,6 +193,7 @@ std::vector<double> climb(Setup& setup, Solver& solver, double pressure,
       solved = solver.solve(state);
     }
     if (!solved.converged) {
+      if (!past.is_first()) ++report.guesses_missed;
       state = past.last();
       solved = solver.relax(pressure, interrupted, state);
     }
@@ -236,10 +254,11 @@ std::vector<Resolution> coarser_meshes(const Resolution& finest, int layers) {
 
 /// From the state on a coarser mesh; empty when that does not lead there.
 std::vector<double> refine(const Assembler& coarser, const std::vector<double>& coarse_state, Solver& solver,
-                           double pressure, const std::function<bool()>& interrupted) {
+                           double pressure, const std::function<bool()>& interrupted, StaticReport& report) {
   const auto guess = prolong(coarser, coarse_state, solver.assembler());
   auto state = guess;
   if (solver.solve(state).converged) return state;
+  ++report.guesses_missed;
   state = guess;
   if (!solver.relax(pressure, interrupted, state).converged) state.clear();
   return state;
@@ -266,7 +285,7 @@ std::vector<double> static_state(const Scene& scene, Setup& setup, const Assembl
     Newton solving(*next);
     Solver solver(*next_setup, *next, solving, time, coarse_tolerance);
     try {
-      state = coarser ? refine(*coarser, state, solver, pressure, interrupted)
+      state = coarser ? refine(*coarser, state, solver, pressure, interrupted, report)
                       : climb(*next_setup, solver, pressure, interrupted, report);
     } catch (const SolverFailure&) {
       report.coarse += solving.counts();
@@ -279,7 +298,7 @@ std::vector<double> static_state(const Scene& scene, Setup& setup, const Assembl
   }
   if (interrupted()) return {};
   Solver solver(setup, assembler, newton, time, tolerance);
-  if (!state.empty()) state = refine(*coarser, state, solver, pressure, interrupted);
+  if (!state.empty()) state = refine(*coarser, state, solver, pressure, interrupted, report);
   if (state.empty()) state = climb(setup, solver, pressure, interrupted, report);
   setup.load = 1;
   return state;

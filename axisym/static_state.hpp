@@ -12,7 +12,8 @@ namespace tunica::axisym {
 struct StaticReport {
   int load_steps = 0;
   int rejected = 0;
-  NewtonCounts coarse;  ///< on the meshes that were gone through
+  int guesses_missed = 0;  ///< guesses that Newton's method did not get from to the state: steps in time did
+  NewtonCounts coarse;     ///< on the meshes that were gone through
 };
 
 /// The steady state under the loads of a time: wall in equilibrium, and blood in steady flow or at rest.

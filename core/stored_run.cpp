@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/observables/inputs.hpp"
 #include "core/observables/record.hpp"
 
 namespace tunica {
@@ -12,28 +13,33 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Whether the folder holds a whole result of this scene and tier. That of another one is refused, so
-/// that no result is mixed from two.
-bool holds_whole_result(const fs::path& folder, const Scene& scene, const Tier& tier) {
+/// Whether the folder holds a whole result of this scene, its files and tier. That of another one is refused,
+/// so that no result is mixed from two.
+bool holds_whole_result(const fs::path& folder, const Scene& scene, const nlohmann::ordered_json& files,
+                        const Tier& tier) {
   if (!fs::exists(folder / "record.json")) return false;
   const StoredResult stored = read_result(folder);
-  if (observables::record_text(stored.record, "scene_toml") == describe(scene) &&
-      observables::record_text(stored.record, "tier") == tier.name())
-    return observables::record_flag(stored.record, "converged");
+  const std::string of_tier = observables::record_text(stored.record, "tier");
+  const auto kept_files = stored.record.value("input_files", nlohmann::ordered_json::object());
+  const std::string change =
+      of_tier != tier.name()
+          ? fmt::format("it is of tier {}, not {}", of_tier, tier.name())
+          : changed_input(scene, files, observables::record_text(stored.record, "scene_toml"), kept_files);
+  if (change.empty()) return observables::record_flag(stored.record, "converged");
   // The result that lay here when a run was killed: its checkpoint is younger and says what is computed here.
   if (has_checkpoint(folder)) return false;
   throw InvalidInput(fmt::format(
-      "{}: holds the result of another scene or tier; leave out --resume to replace it, or name another "
+      "{}: holds the result of another scene or tier, {}; leave out --resume to replace it, or name another "
       "folder with --out",
-      folder.string()));
+      folder.string(), change));
 }
 
 }  // namespace
 
 StoredRun::StoredRun(const Tier& tier, const Scene& scene, fs::path folder, bool resume)
-    : tier_(tier), scene_(scene), folder_(std::move(folder)) {
+    : tier_(tier), scene_(scene), folder_(std::move(folder)), files_(input_files(scene)) {
   if (resume) {
-    if (holds_whole_result(folder_, scene, tier)) return;
+    if (holds_whole_result(folder_, scene, files_, tier)) return;
     if (has_checkpoint(folder_)) checkpoint_ = read_checkpoint(folder_, scene, tier.name());
   }
   run_ = tier.prepare(scene);
@@ -49,12 +55,14 @@ Result StoredRun::execute(RunControl control, const std::function<void(const std
   control.resume = checkpoint_ ? &*checkpoint_ : nullptr;
   control.save = [&](const Checkpoint& checkpoint) {
     try {
-      write_checkpoint(folder_, scene_, tier_.name(), checkpoint);
+      write_checkpoint(folder_, scene_, tier_.name(), files_, checkpoint);
     } catch (const OutputFailure& failure) {
       not_saved(failure.what());
     }
   };
-  return run_->execute(control);
+  Result result = run_->execute(control);
+  result.record.input_files = files_;
+  return result;
 }
 
 void StoredRun::store(const Result& result) const {

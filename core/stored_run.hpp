@@ -18,7 +18,8 @@ class StoredRun {
   /// this scene and tier is taken as it is, and a checkpoint as the place to go on from; without either the
   /// run begins. Scene and tier must outlive it.
   /// Throws InvalidInput as Tier::prepare and read_checkpoint do, and when the run is to be resumed in a
-  /// folder that holds the result of another scene or tier.
+  /// folder that holds the result of another scene, of other contents of a file that it names, or of another
+  /// tier.
   StoredRun(const Tier& tier, const Scene& scene, std::filesystem::path folder, bool resume);
 
   /// True when the folder already holds the whole result: there is nothing to execute.
@@ -42,6 +43,7 @@ class StoredRun {
   const Tier& tier_;
   const Scene& scene_;
   std::filesystem::path folder_;
+  nlohmann::ordered_json files_;  ///< input_files when the run was set up
   std::optional<Checkpoint> checkpoint_;
   std::unique_ptr<TierRun> run_;
 };

@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/observables/stops.hpp"
+#include "core/scene/unused.hpp"
 #include "lumped/integrator.hpp"
 #include "lumped/limit_cycle.hpp"
 #include "lumped/network.hpp"
@@ -54,6 +55,8 @@ class LumpedRun final : public TierRun {
     result_.record.setup_seconds = seconds_since(began_);
   }
 
+  std::vector<std::string> warnings() const override { return warnings_; }
+
   Result execute(const RunControl& control) override {
     const auto solving = Clock::now();
     try {
@@ -91,7 +94,12 @@ class LumpedRun final : public TierRun {
                          {"local_relative_tolerance", tolerance_},
                          {"wall_points", observables::wall_points}};
     record.unknowns = network_.unknowns();
+    const scene::Unused of_meshes{
+        {"geometry.ends", "inlet.profile", "mesh.", "outlet.backflow", "time.scheme", "time.step"},
+        "the tier is lumped, without ends, cells and sections, and chooses its steps"};
+    warnings_ = scene::remarks_on(scene_, {&of_meshes, 1});
     record.remarks = scene_.remarks();
+    record.remarks.insert(record.remarks.end(), warnings_.begin(), warnings_.end());
     record.remarks.emplace_back(
         "0D tier: the clamped ends, the wall's inertia and entrance flow are not modelled");
     if (!scene_.flag("lumped.inertance"))
@@ -262,6 +270,7 @@ class LumpedRun final : public TierRun {
   double tolerance_;
   double time_ = 0;
   RecruitmentLog log_;
+  std::vector<std::string> warnings_;
   Result result_;
 };
 

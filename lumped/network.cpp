@@ -96,13 +96,13 @@ int Network::area_index(int compartment) const {
 std::vector<double> Network::rest() const {
   std::vector<double> y(unknowns_, 0.0);
   for (int i = 0; i < compartments_; ++i) y[area_index(i)] = 1;
-  if (windkessel_) y.back() = numbers_.outlet_pressure;
+  if (windkessel_) y.back() = inlet_.growth_at(0) * numbers_.outlet_pressure;
   return y;
 }
 
 std::vector<double> Network::rest_derivative(int k) const {
   std::vector<double> dy(unknowns_, 0.0);
-  if (windkessel_) dy.back() = seeded_[k].outlet_pressure.derivative[0];
+  if (windkessel_) dy.back() = inlet_.growth_at(0) * seeded_[k].outlet_pressure.derivative[0];
   return dy;
 }
 
@@ -167,7 +167,7 @@ Network::Flows<P> Network::flows(const NetworkNumbers<P>& n, double time, const 
     f.flow[i] = inertance_
                     ? y[flow_index(i)]
                     : (f.pressure[i - 1] - f.pressure[i]) / (0.5 * (f.resistance[i - 1] + f.resistance[i]));
-  const P beyond = windkessel_ ? y[unknowns_ - 1] : n.outlet_pressure;
+  const P beyond = windkessel_ ? y[unknowns_ - 1] : inlet_.growth_at(time) * n.outlet_pressure;
   const P outlet_resistance = windkessel_ ? n.proximal_resistance : n.resistance;
   f.flow[last] = inertance_
                      ? y[flow_index(last)]
@@ -196,7 +196,8 @@ void Network::rate_of(const NetworkNumbers<P>& n, double time, const P* y, int k
   }
   if (windkessel_)
     result[unknowns_ - 1] =
-        (f.flow[last] - (y[unknowns_ - 1] - n.outlet_pressure) / n.resistance) / n.compliance;
+        (f.flow[last] - (y[unknowns_ - 1] - inlet_.growth_at(time) * n.outlet_pressure) / n.resistance) /
+        n.compliance;
 }
 
 template <class P>

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <set>
 #include <stdexcept>
 
 #include "core/error.hpp"
@@ -105,7 +106,9 @@ class Maker {
     RunControl control;
     control.report = control_.report;
     control.interrupted = control_.interrupted;
+    warn_once(computation.warnings());
     const Result result = computation.execute(control);
+    warn_once(result.record.findings);
     computation.store(result);
     run.stored = read_result(computation.folder());
     found_.interrupted = result.record.interrupted;
@@ -119,10 +122,16 @@ class Maker {
     return found_.runs.size() - 1;
   }
 
+  void warn_once(const std::vector<std::string>& lines) {
+    for (const std::string& line : lines)
+      if (told_.insert(line).second) control_.warn(line);
+  }
+
   const SceneSource& read_;
   const fs::path& folder_;
   const VerifyControl& control_;
   CrossTier& found_;
+  std::set<std::string> told_;
 };
 
 const Tier& tier_named(const std::vector<const Tier*>& tiers, const std::string& name) {

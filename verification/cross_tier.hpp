@@ -80,6 +80,8 @@ using SceneSource = std::function<Scene(const std::vector<std::string>&)>;
 /// What a verification tells while it runs.
 struct VerifyControl {
   std::function<void(const std::string& label)> begin = [](const std::string&) {};  ///< before each run
+  /// Warnings before a run and what it found out, each line once.
+  std::function<void(const std::string& line)> warn = [](const std::string&) {};
   std::function<void(const Progress&)> report = [](const Progress&) {};
   std::function<bool()> interrupted = [] { return false; };
 };

@@ -98,10 +98,16 @@ int verify_command(const VerifyArguments& arguments) {
     };
     control.report = [&](const Progress& progress) { display->show(progress); };
     control.interrupted = stop_asked;
+    control.warn = [&](const std::string& line) {
+      display = std::make_unique<ProgressDisplay>(arguments.quiet);
+      if (!arguments.quiet) spdlog::warn(line);
+    };
     found = verification::verify(compared, read, folder, control);
   }
   if (found.interrupted) {
-    fmt::print(stderr, "tunica: {}: interrupted; the runs so far are in {}, nothing was compared\n",
+    fmt::print(stderr,
+               "tunica: {}: interrupted; the runs so far are in {}, nothing was compared; the same command "
+               "begins anew, tunica run with --resume completes one of them\n",
                scene.name(), folder.string());
     return interrupted;
   }

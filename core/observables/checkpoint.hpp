@@ -25,10 +25,10 @@ nlohmann::json pack(std::span<const double> values);
 std::vector<double> unpack(const nlohmann::json& packed);
 
 /// Writes FOLDER/checkpoint: CBOR, aside and renamed (write_whole), with the program's version and commit,
-/// the tier, the scene's whole text, a checksum of every file that the scene names, and one of the contents.
-/// Throws OutputFailure.
+/// the tier, the scene's whole text, its files (input_files, as they were when the run began), and a checksum
+/// of the contents. Throws OutputFailure.
 void write_checkpoint(const std::filesystem::path& folder, const Scene& scene, std::string_view tier,
-                      const Checkpoint& checkpoint);
+                      const nlohmann::ordered_json& files, const Checkpoint& checkpoint);
 
 /// Reads it back. Throws InvalidInput, naming the remedy, when it is cut off or damaged, or was written by
 /// another version of the program, for another scene (or other contents of a file that it names) or by

@@ -22,7 +22,7 @@ struct RunRecord {
   long unknowns = 0;
   long steps = 0;
   long newton_iterations = 0;
-  long linear_iterations = 0;
+  long linear_iterations = 0;  ///< of a direct solver: systems solved with a factorisation
   long rejected_steps = 0;
   double setup_seconds = 0;
   double solve_seconds = 0;
@@ -32,6 +32,8 @@ struct RunRecord {
   std::vector<std::string> remarks;  ///< model differences and warnings, one line each
   /// What the run found out about its result that a user should know, one line each.
   std::vector<std::string> findings;
+  /// Checksums of the files that the scene names (input_files), as they were when the run began.
+  nlohmann::ordered_json input_files = nlohmann::ordered_json::object();
 };
 
 /// What a tier returns. A solver that gives up returns what it has with record.failure set.

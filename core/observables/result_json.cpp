@@ -94,7 +94,8 @@ Json from_record(const RunRecord& record) {
                 {"converged", record.converged},
                 {"interrupted", record.interrupted},
                 {"failure", record.failure},
-                {"remarks", record.remarks}};
+                {"remarks", record.remarks},
+                {"findings", record.findings}};
   for (const auto& [name, count] : counts) value[name] = record.*count;
   return value;
 }
@@ -109,6 +110,7 @@ RunRecord to_record(const Json& value) {
   record.interrupted = value.at("interrupted");
   record.failure = value.at("failure");
   record.remarks = value.at("remarks").get<std::vector<std::string>>();
+  record.findings = value.at("findings").get<std::vector<std::string>>();
   for (const auto& [name, count] : counts) record.*count = value.at(name);
   return record;
 }

@@ -144,6 +144,7 @@ std::string record_text(const Scene& scene, const RunRecord& run) {
   record["failure"] = run.failure;
   record["remarks"] = run.remarks;
   record["findings"] = run.findings;
+  record["input_files"] = run.input_files;
   Json set_keys;
   record["scene"] = scene_to_json(scene, set_keys);
   record["scene_set"] = std::move(set_keys);

@@ -31,7 +31,8 @@ StepControl::StepControl(const StepOptions& options) : options_(options) {
 }
 
 Step StepControl::next(double time, double stop) {
-  const double target = state_.divided ? std::min(stop, state_.cell_end) : stop;
+  double target = state_.divided ? std::min(stop, state_.cell_end) : stop;
+  if (stop - target < 1e-6 * state_.regular) target = stop;
   const double remaining = target - time;
   if (!(remaining > 0 && std::isfinite(remaining)))
     throw std::logic_error("time::StepControl: the stop is not ahead");
@@ -69,8 +70,11 @@ Verdict StepControl::judge(double error, int order) {
   if (options_.fixed) {
     accept(error, order);
     if (state_.divided && state_.tried_end >= state_.cell_end) {
-      state_.divided = false;
-      state_.wanted = options_.first;
+      // Back by doubling: bdf2 does not bear a greater growth.
+      const double grown = options_.growth * state_.tried;
+      state_.divided = grown < state_.regular * (1 - rounding);
+      state_.wanted = state_.divided ? grown : options_.first;
+      state_.cell_end += state_.regular;
     }
     return Verdict::accept;
   }

@@ -36,7 +36,7 @@ struct StepOptions {
 /// and the last step is no sliver.
 ///
 /// A step that cannot be solved is halved, and quartered when it fails again; the next steps do not grow. In
-/// fixed mode its end is met by the smaller steps, and steps are then as before.
+/// fixed mode its end is met by the smaller steps; steps then double until they are as before.
 class StepControl {
  public:
   /// Throws std::logic_error unless 0 < minimum <= first <= maximum and growth > keep_to > 1 > keep_from.

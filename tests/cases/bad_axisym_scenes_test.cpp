@@ -66,7 +66,8 @@ void expect_refused(const fs::path& scene, const std::vector<std::string>& words
 }
 
 TEST(BadAxisymScenesInProgram, EndWithCodeTwoAndOneLine) {
-  for (const char* name : {"mesh_missing", "mesh_in_millimetres", "mesh_with_layers_that_the_scene_has_not",
+  for (const char* name : {"mesh_missing", "mesh_in_millimetres", "mesh_a_thousand_times_too_small",
+                           "mesh_a_thousand_times_too_large", "mesh_with_layers_that_the_scene_has_not",
                            "torus", "alpha_without_step", "parabola_that_widens", "one_handed_fibres"}) {
     SCOPED_TRACE(name);
     const auto& all = bad_axisym_scenes();
@@ -78,9 +79,9 @@ TEST(BadAxisymScenesInProgram, EndWithCodeTwoAndOneLine) {
 }
 
 TEST(BadMeshesInProgram, EndWithCodeTwoAndOneLine) {
-  for (const char* name :
-       {"empty", "binary_flag", "node_missing", "tetrahedron", "no_area", "crossed_corners",
-        "nodes_not_shared", "no_inlet", "no_outer", "open_interface", "ends_swapped"}) {
+  for (const char* name : {"empty", "binary_flag", "node_missing", "tetrahedron", "no_area",
+                           "crossed_corners", "side_beyond_its_cell", "part_misspelt", "nodes_not_shared",
+                           "no_inlet", "no_outer", "open_interface", "ends_swapped"}) {
     SCOPED_TRACE(name);
     const auto& all = bad_meshes();
     const auto bad = std::find_if(all.begin(), all.end(), [&](const BadMesh& b) { return b.name == name; });

@@ -151,7 +151,33 @@ TEST_F(Interrupted, ResumeOfAnotherSceneIsRefused) {
       {"run", scene, "--out", "r", "--quiet", "--resume", "--set", "tether.stiffness=2e7"}, folder.path());
   EXPECT_EQ(other.code, 2);
   EXPECT_TRUE(is_one_line(other.errors)) << other.errors;
+  EXPECT_NE(other.errors.find("cylinder.toml: tether.stiffness was 10000000 and is 20000000"),
+            std::string::npos)
+      << other.errors;
   EXPECT_TRUE(read_text(folder.path() / "r/observables.csv") == before);
+}
+
+TEST(Faults, ResumeWithAnotherWaveformOfTheSameNameIsRefused) {
+  const TemporaryFolder folder;
+  const auto write = [&](const char* peak) {
+    std::ofstream(folder.path() / "flow.csv")
+        << "time[s],flow[cm3/s]\n0,0.1\n0.1," << peak << "\n0.2,0.15\n0.3,0.12\n0.8,0.1\n";
+  };
+  std::ofstream(folder.path() / "mine.toml") << "[inlet]\nwaveform = \"flow.csv\"\n[time]\nbeats = 1\n";
+  const std::vector<std::string> command{"run",     "mine.toml",   "--out",   "r",
+                                         "--quiet", "--no-report", "--resume"};
+  write("0.2");
+  ASSERT_EQ(test_support::tunica(command, folder.path()).code, 0);
+  EXPECT_EQ(test_support::tunica(command, folder.path()).code, 0) << "complete";
+  const std::string before = read_text(folder.path() / "r/record.json");
+  write("0.21");
+  const Ended changed = test_support::tunica(command, folder.path());
+  EXPECT_EQ(changed.code, 2);
+  EXPECT_TRUE(is_one_line(changed.errors)) << changed.errors;
+  EXPECT_NE(changed.errors.find("the contents of inlet.waveform = \"flow.csv\" have changed"),
+            std::string::npos)
+      << changed.errors;
+  EXPECT_TRUE(read_text(folder.path() / "r/record.json") == before);
 }
 
 TEST(Faults, FullDiskIsToldAndLeavesNoHalfFile) {

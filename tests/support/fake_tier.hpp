@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "core/tier.hpp"
 
@@ -22,6 +23,7 @@ class FakeTier final : public Tier {
 
   std::string_view name() const override { return name_; }
   std::string refusal(const Scene& scene) const override { return refusal_(scene); }
+  std::vector<std::string> warnings;  ///< of each of its runs
   bool suits(const Scene& scene) const override { return refusal_(scene).empty(); }
   std::unique_ptr<TierRun> prepare(const Scene& scene) const override {
     return std::make_unique<Run>(*this, scene);
@@ -31,6 +33,7 @@ class FakeTier final : public Tier {
   class Run final : public TierRun {
    public:
     Run(const FakeTier& tier, const Scene& scene) : tier_(tier), scene_(scene) {}
+    std::vector<std::string> warnings() const override { return tier_.warnings; }
     Result execute(const RunControl& control) override {
       Result result = tier_.answer_(scene_, control);
       result.record.tier = tier_.name_;

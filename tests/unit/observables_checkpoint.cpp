@@ -14,6 +14,7 @@
 #include "core/error.hpp"
 #include "core/observables/build_info.hpp"
 #include "core/observables/checkpoint.hpp"
+#include "core/observables/inputs.hpp"
 #include "tests/support/synthetic.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -67,6 +68,7 @@ Checkpoint rich_checkpoint() {
   record.solve_seconds = 0.3;
   record.interrupted = true;
   record.remarks = {"one", "two"};
+  record.findings = {"three"};
   checkpoint.state["time"] = 0.1;
   checkpoint.state["step"] = 12345678901L;
   checkpoint.state["unknowns"] = pack(std::vector<double>{1.0 / 3, -0.0, observables::none});
@@ -114,7 +116,7 @@ TEST(CheckpointFile, ReadsBackWhatWasWritten) {
   const Scene scene = some_scene();
   const Checkpoint written = rich_checkpoint();
   EXPECT_FALSE(has_checkpoint(folder.path()));
-  write_checkpoint(folder.path(), scene, "made up", written);
+  write_checkpoint(folder.path(), scene, "made up", input_files(scene), written);
   EXPECT_TRUE(has_checkpoint(folder.path()));
   const Checkpoint read = read_checkpoint(folder.path(), scene, "made up");
   EXPECT_EQ(read.state["time"], 0.1);
@@ -141,7 +143,7 @@ TEST(CheckpointFile, ReadsBackWhatWasWritten) {
 TEST(CheckpointFile, OneThatIsCutOffOrDamagedIsRefused) {
   const TemporaryFolder folder;
   const Scene scene = some_scene();
-  write_checkpoint(folder.path(), scene, "made up", rich_checkpoint());
+  write_checkpoint(folder.path(), scene, "made up", input_files(scene), rich_checkpoint());
   const std::string whole = read_text(folder.path() / "checkpoint");
   const auto seed = std::random_device()();
   std::mt19937 random(seed);
@@ -170,16 +172,20 @@ TEST(CheckpointFile, OneOfAnotherRunIsRefused) {
                        folder.path());
   };
   const Scene scene = read_it("EXP1");
-  write_checkpoint(folder.path(), scene, "made up", rich_checkpoint());
+  write_checkpoint(folder.path(), scene, "made up", input_files(scene), rich_checkpoint());
   EXPECT_EQ(refusal(folder.path(), scene), "no refusal");
-  EXPECT_NE(refusal(folder.path(), read_it("EXP2")).find("another scene"), std::string::npos);
+  const std::string other = refusal(folder.path(), read_it("EXP2"));
+  EXPECT_NE(other.find("another scene: some.toml: wall.law was \"EXP1\" and is \"EXP2\""), std::string::npos)
+      << other;
   EXPECT_NE(refusal(folder.path(), scene, "other").find("tier made up, not other"), std::string::npos);
 
   // The scene's text is the same, what it names is not.
   const std::string flow = read_text(folder.path() / "flow.csv");
   write_whole(folder.path() / "flow.csv",
               "time[s],flow[cm3/s]\n0,0.1\n0.1,0.3\n0.2,0.15\n0.3,0.12\n0.8,0.1\n");
-  EXPECT_NE(refusal(folder.path(), read_it("EXP1")).find("file that the scene names"), std::string::npos);
+  const std::string changed = refusal(folder.path(), read_it("EXP1"));
+  EXPECT_NE(changed.find("contents of inlet.waveform = \"flow.csv\" have changed"), std::string::npos)
+      << changed;
   write_whole(folder.path() / "flow.csv", flow);
 
   auto whole = nlohmann::json::from_cbor(read_text(folder.path() / "checkpoint"));
@@ -196,13 +202,13 @@ TEST(CheckpointFile, AKilledWriterLeavesAWholeOne) {
   const Scene scene = some_scene();
   Checkpoint checkpoint = rich_checkpoint();
   checkpoint.state["unknowns"] = pack(std::vector<double>(200000, 1.5));
-  write_checkpoint(folder.path(), scene, "made up", checkpoint);
+  write_checkpoint(folder.path(), scene, "made up", input_files(scene), checkpoint);
   const auto seed = std::random_device()();
   std::mt19937 random(seed);
   for (int repeat = 0; repeat < 10; ++repeat) {
     const pid_t child = ::fork();
     if (child == 0)
-      for (;;) write_checkpoint(folder.path(), scene, "made up", checkpoint);
+      for (;;) write_checkpoint(folder.path(), scene, "made up", input_files(scene), checkpoint);
     std::this_thread::sleep_for(std::chrono::microseconds(random() % 20000));
     ::kill(child, SIGKILL);
     ::waitpid(child, nullptr, 0);

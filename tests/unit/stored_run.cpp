@@ -229,3 +229,52 @@ TEST(StoredRun, ACheckpointThatCannotBeWrittenDoesNotEndTheRun) {
   run.store(result);
   EXPECT_EQ(read_text(folder.path() / "observables.csv"), undisturbed(scene));
 }
+
+TEST(StoredRun, ResumeNoticesThatAnInputHasChanged) {
+  const TemporaryFolder inputs, folder;
+  const auto write = [&](const char* peak) {
+    write_whole(inputs.path() / "flow.csv",
+                std::string("time[s],flow[cm3/s]\n0,0.1\n0.1,") + peak + "\n0.2,0.15\n0.3,0.12\n0.8,0.1\n");
+  };
+  const auto scene = [&](const std::string& radius) {
+    return parse_scene("[geometry]\nkind = \"mesh\"\nfile = \"artery.msh\"\nradius = " + radius +
+                           "\n[inlet]\nwaveform = \"flow.csv\"\n",
+                       "some.toml", inputs.path());
+  };
+  const auto refusal = [&](const std::string& radius = "0.4") -> std::string {
+    try {
+      const Scene now = scene(radius);
+      const bool is_complete = StoredRun(ChaoticTier(), now, folder.path(), true).is_complete();
+      return is_complete ? "complete" : "goes on";
+    } catch (const InvalidInput& error) {
+      const std::string message = error.what();
+      EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+      EXPECT_NE(message.find("leave out --resume"), std::string::npos) << message;
+      return message;
+    }
+  };
+  const auto expect_noticed = [&](const std::string& otherwise) {
+    write_whole(inputs.path() / "artery.msh", "another mesh");
+    EXPECT_NE(refusal().find("contents of geometry.file = \"artery.msh\" have changed"), std::string::npos)
+        << refusal();
+    write_whole(inputs.path() / "artery.msh", "a mesh");
+    write("0.3");
+    EXPECT_NE(refusal().find("contents of inlet.waveform = \"flow.csv\" have changed"), std::string::npos)
+        << refusal();
+    write("0.2");
+    EXPECT_NE(refusal("0.5").find("some.toml: geometry.radius was 0.4 and is 0.5"), std::string::npos)
+        << refusal("0.5");
+    EXPECT_EQ(refusal(), otherwise);
+  };
+  write_whole(inputs.path() / "artery.msh", "a mesh");
+  write("0.2");
+  const Scene first = scene("0.4");
+  run_and_kill(first, folder.path(), false, 200);
+  expect_noticed("goes on");
+  // What counts is what the run read, not what lies there when it ends.
+  const ChaoticTier tier;
+  StoredRun run(tier, first, folder.path(), true);
+  write_whole(inputs.path() / "artery.msh", "another mesh");
+  run.store(run.execute({}));
+  expect_noticed("complete");
+}

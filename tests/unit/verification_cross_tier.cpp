@@ -231,6 +231,22 @@ TEST(CrossTier, AnInterruptEndsItAll) {
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "low/record.json"));
 }
 
+TEST(CrossTier, WarningsAndFindingsAreToldOnceEach) {
+  FakeTier low = Made().low();
+  low.warnings = {"it ripples", "a key is not used"};
+  const FakeTier high{"high", [](const Scene&, const RunControl&) {
+                        Result result = higher_by(0);
+                        result.record.findings = {"steps were divided", "it ripples"};
+                        return result;
+                      }};
+  const TemporaryFolder folder;
+  VerifyControl control;
+  std::vector<std::string> told;
+  control.warn = [&](const std::string& line) { told.push_back(line); };
+  verify({&low, &high}, scene_with(), folder.path(), control, ladder());
+  EXPECT_EQ(told, (std::vector<std::string>{"it ripples", "a key is not used", "steps were divided"}));
+}
+
 TEST(CrossTier, ATierThatRefusesTheSceneIsToldBeforeAnythingIsComputed) {
   const FakeTier low = Made{}.low();
   const FakeTier high{"high", [](const Scene&, const RunControl&) { return higher_by(0); },

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "axisym/remarks.hpp"
+
+#include "core/scene/unused.hpp"
+
+namespace tunica::axisym {
+
+std::vector<std::string> remarks_on_unused_keys(const Scene& scene, const Setup& setup) {
+  std::vector<scene::Unused> unused{{{"lumped."}, "the tier is axisym"}};
+  if (scene.text("time.mode") == "static")
+    unused.push_back({{"time.beats", "time.start", "time.ramp", "output.interval", "output.profile_times",
+                       "outlet.compliance"},
+                      "time.mode is \"static\""});
+  if (!setup.problem.mesh.has(Part::blood))
+    unused.push_back({{"blood.", "inlet.profile", "outlet.", "mesh.blood_cells", "mesh.motion"},
+                      "a wall under a given pressure is computed without its blood"});
+  if (setup.inlet.is_pressure) unused.push_back({{"inlet.profile"}, "a pressure drives the flow"});
+  if (scene.text("geometry.kind") == "mesh")
+    unused.push_back({{"geometry.thickness", "geometry.length"}, "geometry.kind is \"mesh\""});
+  if (scene.text("mesh.element") == "bubble")
+    unused.push_back({{"mesh.mixed_wall"}, "mesh.element is \"bubble\""});
+  return scene::remarks_on(scene, unused);
+}
+
+}  // namespace tunica::axisym
