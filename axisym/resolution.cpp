@@ -73,7 +73,7 @@ Resolution resolution(const Scene& scene) {
     // wall fibres begin to be recruited: the stress has a kink there, which moves within a cell.
     r.wall_cells = std::max(r.wall_cells, 16);
     r.blood_cells = std::max(r.blood_cells, 4);
-    r.axial_cells = std::max(r.axial_cells, 24);
+    r.axial_cells = std::max(r.axial_cells, 40);
   }
   const auto take = [&](const char* key, int& count) {
     if (scene.has(key)) count = static_cast<int>(scene.integer(key));
@@ -124,8 +124,8 @@ Mesh mesh_of(const Scene& scene, const Resolution& resolution, bool with_blood) 
     // Strain and pressure are singular where the lumen ends at the clamped faces (as the distance to the
     // power -0.4 for the wall, -0.5 for the blood), and the loss of pressure in the narrow ends depends on
     // what becomes of them: cells shrink towards there by the same factor along both directions.
-    // Linear elements have other errors to lose first, and a wall alone feels its corners only near them.
-    const bool resolve_corners = with_blood && scene.text("mesh.element") == "quadratic";
+    // Linear elements have other errors to lose first.
+    const bool resolve_corners = scene.text("mesh.element") == "quadratic";
     spec.end_grading = (resolve_corners ? corner_grading : 1) * bending;
     spec.interface_grading = resolve_corners ? interface_grading : 1;
   }

@@ -126,14 +126,27 @@ element::CellRule wall_rule(const Problem& problem, int index) {
   return rule;
 }
 
-WallTable wall_table(const Problem& problem, int index) {
+/// By cell: it has a side whose displacement is prescribed.
+std::vector<bool> held_cells(const Problem& problem) {
+  std::vector<bool> held(problem.mesh.cells.size());
+  for (const Edge& edge : problem.mesh.edges) {
+    const auto& prescribed = problem.on(edge.boundary).displacement;
+    if (prescribed[0] && prescribed[1]) held[edge.cell] = true;
+  }
+  return held;
+}
+
+WallTable wall_table(const Problem& problem, int index, bool held) {
   const Mesh& mesh = problem.mesh;
   const Cell& cell = mesh.cells[index];
   const Element element = problem.discretisation.element;
   const auto rule = wall_rule(problem, index);
   WallTable table{index, cell.layer, 0, {}};
+  // Strain is singular where held sides end. Quadratic cells there would buckle within themselves, their
+  // volume being bounded in the mean, and need no help against locking.
   const bool mixed = problem.discretisation.mixed_wall && element != Element::bubble &&
-                     wall::splits_volume(problem.laws[cell.layer]);
+                     wall::splits_volume(problem.laws[cell.layer]) &&
+                     !(held && element == Element::quadratic);
   if (mixed) table.pressure_terms = element == Element::quadratic ? kernel::max_pressure_terms<Frame> : 1;
   for (std::size_t q = 0; q < rule.points.size(); ++q) {
     const Shapes shapes = element::shapes_at(mesh.shape, geometry_basis(element), rule.points[q]);
@@ -205,12 +218,13 @@ int velocity_node(const Mesh& mesh, Element element, const Cell& cell, int k) {
 
 Tables tabulate(const Problem& problem) {
   Tables tables;
+  const std::vector<bool> held = held_cells(problem);
   for (std::size_t k = 0; k < problem.mesh.cells.size(); ++k) {
     const int index = static_cast<int>(k);
     if (problem.mesh.cells[k].part == Part::blood)
       tables.blood.push_back(blood_table(problem, index));
     else
-      tables.wall.push_back(wall_table(problem, index));
+      tables.wall.push_back(wall_table(problem, index, held[k]));
   }
   tables.axes = WallAxes(problem, tables.wall);
   for (WallTable& table : tables.wall) {
