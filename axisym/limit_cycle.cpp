@@ -62,6 +62,19 @@ class Range {
 
 }  // namespace
 
+namespace {
+
+/// Mean square over the entries of the field, as steps are judged by, so that single nodes do not hold the
+/// search up by what steps leave in them; the charge of the outlet counts by itself.
+double norm_of(const Eigen::VectorXd& weighed, std::optional<std::size_t> charge) {
+  const double of_charge = charge ? std::abs(weighed[static_cast<Eigen::Index>(*charge)]) : 0;
+  const auto entries = static_cast<double>((weighed.array() != 0).count());
+  if (entries == 0) return 0;
+  return std::max(of_charge, std::sqrt((weighed.squaredNorm() - of_charge * of_charge) / entries));
+}
+
+}  // namespace
+
 LimitCycle limit_cycle(Simulation& simulation, std::vector<double> guess, double period, double tolerance,
                        const std::function<bool()>& interrupted, LimitCycleReport& report, int most) {
   constexpr std::size_t depth = 3;
@@ -97,12 +110,16 @@ LimitCycle limit_cycle(Simulation& simulation, std::vector<double> guess, double
       const Vector mix = changes.colPivHouseholderQr().solve(weights.cwiseProduct(differences.back()));
       for (Eigen::Index k = 0; k + 1 < m; ++k) x -= mix[k] * (images[k + 1] - images[k]);
     }
-    const auto norm = [&](const Vector& v) { return v.cwiseProduct(weights).lpNorm<Eigen::Infinity>(); };
+    const auto norm = [&](const Vector& v) {
+      return norm_of(v.cwiseProduct(weights), simulation.layout().windkessel_pressure);
+    };
     // What changes slowly may still be far from its end. The extrapolation knows how far, but from two
-    // periods alone it cannot tell that from what dies at once.
+    // periods alone it cannot tell that from what dies at once. It magnifies what steps leave in a period as it
+    // does the change, so that less than a few tenths of the tolerance cannot be asked of it.
     const double change = norm(differences.back());
-    report.change = std::max(change, m > 2 ? norm(x - image) : 10 * change);
-    if (report.change <= 0.1 * tolerance) return {simulation.state(), std::move(rates)};
+    const double left = m > 2 ? norm(x - image) : 10 * change;
+    report.change = std::max(change, left);
+    if (change <= 0.1 * tolerance && left <= 0.3 * tolerance) return {simulation.state(), std::move(rates)};
     if (report.periods >= most)
       throw SolverFailure(
           fmt::format("no limit cycle within {} periods: the state is still {:.2g} of its range away from it",

@@ -141,7 +141,10 @@ NewtonReport Newton::solve(const Stage& stage, std::span<double> y, const Newton
       const Outcome outcome = iterate(stage, y, options, report);
       converged = outcome == Outcome::converged;
       if (outcome == Outcome::failed) std::copy(good.begin(), good.end(), y.begin());
-      if (!converged) evaluate(stage, y);
+      if (!converged && !evaluate(stage, y)) {
+        std::copy(good.begin(), good.end(), y.begin());
+        evaluate(stage, y);
+      }
     }
     if (converged) return converge();
   }

@@ -23,8 +23,14 @@ int cells(double at_one_percent, double order, double tolerance) {
   return static_cast<int>(std::ceil(at_one_percent * std::pow(0.01 / tolerance, 1 / order) - 1e-9));
 }
 
-/// Nodes that a direct solver still copes with (tens of gigabytes).
-constexpr double most_nodes = 1e6;
+/// Nodes that a direct solver still copes with: some gigabytes, and seconds for a factorisation.
+constexpr double most_nodes = 1e5;
+
+/// Outer over inner radius; that of the paper's artery, on which the numbers of cells were found.
+double thickness_ratio(const Scene& scene) {
+  return 1 + scene.number("geometry.thickness") / scene.number("geometry.radius");
+}
+constexpr double paper_thickness_ratio = 1 + 0.01 / 0.033;
 
 void require_solvable(const Scene& scene, double nodes) {
   if (nodes <= most_nodes) return;
@@ -63,11 +69,14 @@ Resolution resolution(const Scene& scene) {
   const bool quadratic = scene.text("mesh.element") == "quadratic";
   const double finer = quadratic ? 1 : 3;
   const double across = quadratic ? 2.1 : 2, through = quadratic ? 2.6 : 2, along = quadratic ? 4.3 : 2;
-  r.wall_cells = cells(quadratic ? 2.4 : 6, through, tolerance);
+  // A thick wall is strained most at the lumen: more cells, in proportion to the logarithm of its radii.
+  const double thick = std::max(1.0, std::log(thickness_ratio(scene)) / std::log(paper_thickness_ratio));
+  r.wall_cells = cells(thick * (quadratic ? 2.4 : 6), through, tolerance);
   r.blood_cells = cells(2 * finer, across, tolerance);
   // Half of the cells lie in the layers where the clamped ends bend the wall, whose number does not depend on
-  // the length; the rest follow the artery.
-  r.axial_cells = 2 * cells(7 * finer, along, tolerance);
+  // the length; the rest follow the artery, a long one by cells of some fifty radii.
+  const double half_length = 0.5 * scene.number("geometry.length") / scene.number("geometry.radius");
+  r.axial_cells = 2 * cells((7 + std::round(half_length / 50)) * finer, along, tolerance);
   if (scene.text("time.mode") == "static") {
     // A single state is cheap. With these the lumen of the paper's artery is right to 1e-5, wherever in the
     // wall fibres begin to be recruited: the stress has a kink there, which moves within a cell.
@@ -113,6 +122,7 @@ Mesh mesh_of(const Scene& scene, const Resolution& resolution, bool with_blood) 
   spec.wall_cells = resolution.wall_cells;
   spec.axial_cells = resolution.axial_cells;
   spec.blood = with_blood;
+  spec.wall_grading = std::max(1.0, thickness_ratio(scene) / paper_thickness_ratio);
   if (scene.text("geometry.ends") == "clamped") {
     const double bending = bending_layer_grading(spec.radius, thickness, spec.length);
     if (corner_grading * bending > steepest_grading)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <sched.h>
+
 #include <algorithm>
 #include <atomic>
 #include <thread>
@@ -8,9 +10,12 @@
 
 namespace tunica {
 
-/// Threads that the machine lets this process have (fewer than its cores under taskset).
+/// Cores that this process may use: under taskset, or in a container, fewer than the machine has.
 inline int available_threads() {
-  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  cpu_set_t cores;
+  CPU_ZERO(&cores);
+  if (sched_getaffinity(0, sizeof cores, &cores) != 0) return 1;
+  return std::max(1, CPU_COUNT(&cores));
 }
 
 /// Calls body(k) for k = 0 to count - 1, in any order, side by side. The threads are made for the call and

@@ -76,11 +76,19 @@ Axis axis_of(const std::vector<Series>& series, std::vector<double> Series::*val
   return {least - margin, greatest + margin, from, to, logarithmic};
 }
 
-constexpr double row_height = 17, legend_width = 150;
+constexpr double row_height = 17;
+
+/// Of the longest name; a letter takes 7 pixels in the mean.
+double legend_width(const LineChart& chart) {
+  std::size_t longest = 0;
+  for (const Series& series : chart.series) longest = std::max(longest, series.name.size());
+  return 40 + 7.0 * static_cast<double>(longest);
+}
 
 /// Upper left corner of the legend where the fewest points of the lines are.
 std::array<double, 2> legend_place(const LineChart& chart, const Axis& x, const Axis& y) {
   const double rows = row_height * static_cast<double>(chart.series.size()) + 8;
+  const double needed = legend_width(chart);
   const auto points_within = [&](double column, double row) {
     int within = 0;
     for (const Series& s : chart.series)
@@ -91,13 +99,12 @@ std::array<double, 2> legend_place(const LineChart& chart, const Axis& x, const 
           const double share = static_cast<double>(k) / parts;
           const double px = std::lerp(x.at(s.x[before]), x.at(s.x[i]), share);
           const double py = std::lerp(y.at(s.y[before]), y.at(s.y[i]), share);
-          if (px > column && px < column + legend_width && py > row && py < row + rows) ++within;
+          if (px > column && px < column + needed && py > row && py < row + rows) ++within;
         }
       }
     return within;
   };
-  const double columns[] = {width - right - legend_width, left + 8},
-               heights[] = {top, height - bottom - rows};
+  const double columns[] = {width - right - needed, left + 8}, heights[] = {top, height - bottom - rows};
   std::array<double, 2> best{columns[0], heights[0]};
   int least = points_within(best[0], best[1]);
   for (const double row : heights)

@@ -310,7 +310,7 @@ INSTANTIATE_TEST_SUITE_P(
               {"at t = 0.", "r = ", "z = ", "cell"}},
         Fault{"pressure_that_comes_at_once",
               {"time.ramp=0", "inlet.waveform=pressure", "inlet.pressure=100 mmHg"},
-              {"at t = ", "(beat 1)", "the wall is compressed to J", "r = ", "z = ", "cell",
+              {"at t = ", "(beat 1)", "turned inside out", "r = ", "z = ", "cell",
                "with time.ramp = 0 s the load comes as a blow"}},
         Fault{"blow",
               {"time.ramp=0", "inlet.profile=natural", "outlet.resistance=0", "tether.stiffness=4e8",

