@@ -72,8 +72,8 @@ int run_command(const RunArguments& arguments) {
     return gave_up;
   }
   if (record.interrupted) {
-    fmt::print(stderr, "tunica: {}: interrupted; results so far are in {}, --resume completes them\n",
-               scene.name(), folder.string());
+    fmt::print(stderr, "tunica: {}: interrupted; results so far are in {}, --resume {}\n", scene.name(),
+               folder.string(), has_checkpoint(folder) ? "completes them" : "begins again");
     return interrupted;
   }
   return done;

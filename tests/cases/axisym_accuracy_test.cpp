@@ -41,6 +41,12 @@ std::map<std::string, double> errors(const Result& result, const Result& referen
   return all;
 }
 
+std::string without_signs(const testing::TestParamInfo<std::string>& instance) {
+  std::string name = instance.param;
+  std::erase_if(name, [](char c) { return c == '+' || c == '-'; });
+  return name;
+}
+
 class Tolerance : public testing::TestWithParam<std::string> {};
 
 // The reference is ten times more accurate: a tenth of a percent is left for its own error.
@@ -50,18 +56,19 @@ TEST_P(Tolerance, OfOnePercentIsKeptInEveryColumn) {
   for (const auto& [column, error] : all) EXPECT_LT(error, 0.009) << column;
 }
 INSTANTIATE_TEST_SUITE_P(, Tolerance, testing::Values("EXP1", "EXP2", "EXP1+EXP2-ZS", "EXP1+EXP2-FS"),
-                         [](const auto& instance) {
-                           std::string name = instance.param;
-                           std::erase_if(name, [](char c) { return c == '+' || c == '-'; });
-                           return name;
-                         });
+                         without_signs);
 
-// The reference's own error, a third of the tolerance, is left room for.
-TEST(FineTolerance, IsKeptInEveryColumn) {
-  const std::string law = "EXP1+EXP2-ZS";
-  for (const auto& [column, error] : errors(computed(law, "0.001"), computed(law, "0.0003")))
-    EXPECT_LT(error, 0.001) << column;
+class FineTolerance : public testing::TestWithParam<std::string> {};
+
+// The reference's own error, a third of the tolerance, is left room for. Where a front of recruitment passes
+// (FS), the stress has a kink within a cell, and is right to 0.2 % only (tools/accuracy).
+TEST_P(FineTolerance, IsKept) {
+  for (const auto& [column, error] : errors(computed(GetParam(), "0.001"), computed(GetParam(), "0.0003"))) {
+    const bool jagged = GetParam() == "EXP1+EXP2-FS" && column.starts_with("von_mises");
+    EXPECT_LT(error, jagged ? 0.003 : 0.001) << column;
+  }
 }
+INSTANTIATE_TEST_SUITE_P(, FineTolerance, testing::Values("EXP1+EXP2-ZS", "EXP1+EXP2-FS"), without_signs);
 
 }  // namespace
 }  // namespace tunica
