@@ -114,8 +114,8 @@ LimitCycle limit_cycle(Simulation& simulation, std::vector<double> guess, double
       return norm_of(v.cwiseProduct(weights), simulation.layout().windkessel_pressure);
     };
     // What changes slowly may still be far from its end. The extrapolation knows how far, but from two
-    // periods alone it cannot tell that from what dies at once. It magnifies what steps leave in a period as it
-    // does the change, so that less than a few tenths of the tolerance cannot be asked of it.
+    // periods alone it cannot tell that from what dies at once. It magnifies what steps leave in a period as
+    // it does the change, so that less than a few tenths of the tolerance cannot be asked of it.
     const double change = norm(differences.back());
     const double left = m > 2 ? norm(x - image) : 10 * change;
     report.change = std::max(change, left);

@@ -24,8 +24,8 @@ struct LimitCycle {
 /// slowly, the charge of the outlet's compliance and of the wall, is a few modes, which it finds within about
 /// twice as many periods.
 /// Throws SolverFailure when `most` periods do not bring the change per period below a tenth of `tolerance`,
-/// and what is left as far as the acceleration knows below three tenths. `interrupted` is asked between steps; when it says
-/// so, an empty state is returned.
+/// and what is left as far as the acceleration knows below three tenths. `interrupted` is asked between
+/// steps; when it says so, an empty state is returned.
 LimitCycle limit_cycle(Simulation& simulation, std::vector<double> guess, double period, double tolerance,
                        const std::function<bool()>& interrupted, LimitCycleReport& report, int most = 40);
 

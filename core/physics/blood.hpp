@@ -72,9 +72,9 @@ Vector<S> pressure_stabilisation(double time, const BloodState<S>& state, const 
   return flux;
 }
 
-/// tau/rho of pressure_stabilisation, s cm3/g: 1 / sqrt((2 rho c)^2 + (2 rho |v|/h)^2 + (12 mu/h^2)^2) for the
-/// rate coefficient c (1/s) of the time scheme and a cell of size h (cm). 0 where nothing limits it: steady
-/// blood at rest without viscosity.
+/// tau/rho of pressure_stabilisation, s cm3/g: 1 / sqrt((2 rho c)^2 + (2 rho |v|/h)^2 + (12 mu/h^2)^2) for
+/// the rate coefficient c (1/s) of the time scheme and a cell of size h (cm). 0 where nothing limits it:
+/// steady blood at rest without viscosity.
 inline double stabilisation_time(const Blood& blood, double rate_coefficient, double speed, double size) {
   const double inertia = 2 * blood.density * rate_coefficient;
   const double convection = 2 * blood.density * speed / size;

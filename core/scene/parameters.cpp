@@ -234,10 +234,10 @@ std::vector<Parameter> declare() {
                        "Start from rest (no load, no flow), from the steady state of the inlet's value at "
                        "time 0 (static), or on "
                        "the limit cycle so that every beat is alike."));
-  all.push_back(
-      number("time.ramp", "s", 0.05, from_zero(10),
-             "From rest, the inlet grows smoothly to its waveform, and outlet.pressure to its value, over this "
-             "time: (1 - cos(pi t/ramp))/2."));
+  all.push_back(number(
+      "time.ramp", "s", 0.05, from_zero(10),
+      "From rest, the inlet grows smoothly to its waveform, and outlet.pressure to its value, over this "
+      "time: (1 - cos(pi t/ramp))/2."));
 
   all.push_back(choice("time.scheme", "bdf2", {"bdf2", "backward-euler", "generalized-alpha"},
                        "Time scheme of the 2D and 3D tiers."));

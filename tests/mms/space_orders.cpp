@@ -188,8 +188,8 @@ INSTANTIATE_TEST_SUITE_P(Elements, NearlyIncompressibleQuadrilateral,
                          testing::Values(quadratic_quadrilateral, linear_quadrilateral), case_name);
 
 // Without its own pressure the wall of quadrilaterals is too stiff: by a factor of 5 in the error of its
-// displacement with linear cells, and by a factor of 2 with quadratic ones, which lock but little, and on held
-// sides as they may.
+// displacement with linear cells, and by a factor of 2 with quadratic ones, which lock but little, and on
+// held sides as they may.
 TEST_P(NearlyIncompressibleQuadrilateral, IsSofterWithAPressureOfItsOwn) {
   const Errors mixed = solve(16, bulk_modulus);
   mixed_wall = false;
