@@ -120,11 +120,12 @@ TEST_F(Interrupted, ByKillAtRandomMomentsItLeavesOnlyWholeFiles) {
   const auto seed = std::random_device()();
   std::cout << "seed " << seed << ", a run takes " << duration_ << " s\n";
   std::mt19937 random(seed);
-  constexpr int kills = 14;
+  // On a machine that was busier before than it is now runs may end before their moment: then there are more.
+  constexpr int tries = 14, most_tries = 80, enough = 5;
   std::uniform_real_distribution<double> moment(0, 1.05 * duration_);
   int killed = 0;
   const TemporaryFolder folder;  // the same throughout: later runs find what earlier ones left
-  for (int k = 0; k < kills; ++k) {
+  for (int k = 0; k < tries || (killed < enough && k < most_tries); ++k) {
     auto arguments = long_run("r");
     if (k % 2 == 1) arguments.emplace_back("--resume");
     Program program(with_program(arguments), folder.path());
@@ -138,7 +139,7 @@ TEST_F(Interrupted, ByKillAtRandomMomentsItLeavesOnlyWholeFiles) {
           << "kill " << k << ", seed " << seed;
     }
   }
-  EXPECT_GE(killed, 5) << "seed " << seed;
+  EXPECT_GE(killed, enough) << "seed " << seed;
   expect_resumed(folder.path());
 }
 
