@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "axisym/assembler.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "axisym/gather.hpp"
+#include "core/coupled/openings.hpp"
 
 namespace tunica::axisym {
 
@@ -14,51 +18,11 @@ using BloodResidual = kernel::BloodResidual<Frame, cell_width>;
 using WallResidual = kernel::WallResidual<Frame, cell_width>;
 using SideResidual = kernel::SideResidual<Frame, side_width>;
 
-/// Loads on a boundary of the vessel and the flow through it.
-struct BoundaryTerms {
-  const Problem& problem;
-  Boundary boundary;
-
-  template <class S>
-  kernel::SurfaceTerms<S> operator()(const kernel::SurfaceState<S>& state,
-                                     const Vector<double>& normal) const {
-    kernel::SurfaceTerms<S> terms;
-    if (boundary == Boundary::outer) {
-      terms.load = physics::tether_load(problem.tether, state.displacement, state.gradient, normal);
-      return terms;
-    }
-    const Vector<S> area = physics::oriented_area(state.gradient, normal);
-    terms.load = physics::pressure_load(state.pressure, area);
-    if (boundary == Boundary::interface) return terms;
-    terms.flow = physics::flow_density(state.velocity, state.mesh_velocity, area);
-    if (boundary != Boundary::outlet || problem.outlet.backflow == 0) return terms;
-    const auto back =
-        physics::backflow_load(problem.outlet.backflow, problem.blood.density, terms.flow, state.velocity);
-    for (int i = 0; i < 3; ++i) terms.load[i] = terms.load[i] + back[i];
-    return terms;
-  }
-};
-
-template <class Nodal, class Rows>
-void add_rows(const Nodal& nodal, const Rows& rows, std::span<double> residual) {
-  for (int c = 0; c < 2; ++c)
-    for (std::size_t k = 0; k < std::size(nodal.value[c]); ++k)
-      if (rows[c][k] >= 0) residual[rows[c][k]] += nodal.value[c][k];
-}
+using BoundaryTerms = coupled::BoundaryTerms<2>;
+using coupled::add_rows;
 
 bool is_loaded(const Problem& problem, const SideTable& side) {
-  switch (side.boundary) {
-    case Boundary::inlet:
-      return problem.inlet.kind != InletKind::prescribed;
-    case Boundary::outlet:
-      return problem.outlet.kind != OutletKind::prescribed;
-    case Boundary::outer:
-      return problem.tether.stiffness > 0;
-    case Boundary::interface:
-      return side.of_wall && !problem.mesh.has(Part::blood);
-    default:
-      return false;
-  }
+  return coupled::is_loaded(problem, side.boundary, side.of_wall && !problem.mesh.has(Part::blood));
 }
 
 /// On fewer cells a residual takes less than a millisecond, and threads are not worth their making.
@@ -81,27 +45,12 @@ Tables needed_tables(const Problem& problem) {
 Assembler::Assembler(const Problem& problem, int threads)
     : problem_(problem),
       threads_(static_cast<int>(problem.mesh.cells.size()) < least_shared_cells ? 1 : threads),
-      layout_(problem),
+      layout_(layout_of(problem)),
       tables_(needed_tables(problem)),
       map_(problem, layout_, tables_) {}
 
 void Assembler::complete(const Stage& stage, std::span<double> y) const {
-  const Vector<double> zero{};
-  for (const auto& entry : layout_.prescribed()) {
-    const auto& function = entry.is_velocity ? problem_.velocity : problem_.displacement;
-    const auto value = function ? function(problem_.mesh.points[entry.node], stage.time) : zero;
-    y[entry.entry] = value[Frame::axes[entry.component]];
-  }
-  for (const int node : layout_.wall_nodes())
-    for (int c = 0; c < 2; ++c) y[layout_.velocity(node, c)] = rate(stage, y, layout_.displacement(node, c));
-}
-
-double Assembler::pressure_on(const SideTable& side, const Stage& stage, std::span<const double> y) const {
-  if (const auto entry = map_.pressure_entry(side.boundary)) return y[*entry];
-  if (side.boundary == Boundary::inlet && problem_.inlet.kind == InletKind::pressure)
-    return problem_.inlet.value(stage.time);
-  if (side.boundary == Boundary::interface) return problem_.lumen_pressure(stage.time);
-  return 0;
+  coupled::complete(problem_, layout_, problem_.mesh.points, Frame::axes, stage, y);
 }
 
 bool Assembler::residual(const Stage& stage, std::span<const double> y, std::span<double> residual) const {
@@ -128,7 +77,7 @@ bool Assembler::residual(const Stage& stage, std::span<const double> y, std::spa
     if (jacobian < least_.value || std::isnan(jacobian)) least_ = {jacobian, cell};
   };
   for (int k = 0; k < blood_count; ++k) {
-    const Numbers& n = map_.blood()[k].numbers;
+    const CellNumbers& n = map_.blood()[k].numbers;
     add_rows(blood[k].momentum, n.momentum, residual);
     add_rows(blood[k].mesh, n.mesh, residual);
     for (int i = 0; i < cell_width; ++i)
@@ -141,7 +90,7 @@ bool Assembler::residual(const Stage& stage, std::span<const double> y, std::spa
   }
   if (!(least_.value > 0)) return false;
   add_sides(stage, y, residual);
-  add_scalars(stage, y, residual);
+  coupled::add_scalars(problem_.inlet, problem_.outlet, layout_, stage, y, residual);
   add_loads(stage.time, residual);
   return std::all_of(residual.begin(), residual.end(), [](double r) { return std::isfinite(r); });
 }
@@ -151,32 +100,14 @@ void Assembler::add_sides(const Stage& stage, std::span<const double> y, std::sp
     const SideTable& side = tables_.sides[s];
     if (!is_loaded(problem_, side)) continue;
     SideNodes nodes = side_nodes(layout_, side, stage, y);
-    nodes.pressure = pressure_on(side, stage, y);
+    nodes.pressure = coupled::pressure_on(problem_, layout_, side.boundary, stage.time, y);
     SideResidual result;
     for (const auto& at : side.points)
       kernel::add_side_residual(BoundaryTerms{problem_, side.boundary}, at, nodes, result);
     add_rows(result.momentum, map_.sides()[s].numbers.momentum, residual);
-    for (const MatrixMap::ScalarRow& row : map_.scalar_rows(side.boundary))
+    for (const auto& row : coupled::scalar_rows(layout_, problem_.outlet, side.boundary))
       residual[layout_.unknown(row.entry)] += row.factor * result.flow;
   }
-}
-
-void Assembler::add_scalars(const Stage& stage, std::span<const double> y, std::span<double> residual) const {
-  if (layout_.inlet_pressure)
-    residual[layout_.unknown(*layout_.inlet_pressure)] -= problem_.inlet.value(stage.time);
-  if (!layout_.outlet_pressure) return;
-  const OutletCondition& outlet = problem_.outlet;
-  double& row = residual[layout_.unknown(*layout_.outlet_pressure)];
-  row += y[*layout_.outlet_pressure];
-  const double beyond = outlet.pressure(stage.time);
-  if (!layout_.windkessel_pressure) {
-    row -= beyond;
-    return;
-  }
-  const std::size_t stored = *layout_.windkessel_pressure;
-  row -= y[stored];
-  residual[layout_.unknown(stored)] +=
-      outlet.compliance * rate(stage, y, stored) + (y[stored] - beyond) / outlet.resistance;
 }
 
 void Assembler::add_loads(double time, std::span<double> residual) const {
@@ -192,7 +123,7 @@ void Assembler::add_loads(double time, std::span<double> residual) const {
   if (loads.blood_force || loads.mesh_force || loads.blood_volume)
     for (std::size_t k = 0; k < tables_.blood.size(); ++k)
       for (const auto& at : tables_.blood[k].points) {
-        const Numbers& n = map_.blood()[k].numbers;
+        const CellNumbers& n = map_.blood()[k].numbers;
         apply(loads.blood_force, at.weight, at.place, at.velocity, n.momentum);
         apply(loads.mesh_force, at.weight, at.place, at.displacement, n.mesh);
         if (!loads.blood_volume) continue;
@@ -255,19 +186,19 @@ void Assembler::tangent(const Stage& stage, std::span<const double> y, SparseMat
     const SideTable& side = tables_.sides[s];
     if (!is_loaded(problem_, side)) continue;
     SideNodes nodes = side_nodes(layout_, side, stage, y);
-    nodes.pressure = pressure_on(side, stage, y);
+    nodes.pressure = coupled::pressure_on(problem_, layout_, side.boundary, stage.time, y);
     SideTangent t;
     for (const auto& at : side.points)
       kernel::add_side_tangent(BoundaryTerms{problem_, side.boundary}, c, at, nodes, t);
-    const Numbers& n = map_.sides()[s].numbers;
+    const SideNumbers& n = map_.sides()[s].numbers;
     scatter(t, map_.sides()[s], c, values);
-    const auto pressure = map_.pressure_entry(side.boundary);
-    const auto rows = map_.scalar_rows(side.boundary);
+    const auto pressure = coupled::pressure_entry(layout_, side.boundary);
+    const auto rows = coupled::scalar_rows(layout_, problem_.outlet, side.boundary);
     for (int b = 0; b < 2; ++b)
       for (int k = 0; k < side.count; ++k) {
         if (pressure && n.momentum[b][k] >= 0)
           matrix.coeffRef(n.momentum[b][k], layout_.unknown(*pressure)) += t.momentum_pressure.value[b][k];
-        for (const MatrixMap::ScalarRow& row : rows) {
+        for (const auto& row : rows) {
           const int r = layout_.unknown(row.entry);
           if (n.velocity[b][k] >= 0)
             matrix.coeffRef(r, n.velocity[b][k]) +=
@@ -277,13 +208,8 @@ void Assembler::tangent(const Stage& stage, std::span<const double> y, SparseMat
         }
       }
   }
-  if (!layout_.outlet_pressure) return;
-  const int outlet = layout_.unknown(*layout_.outlet_pressure);
-  matrix.coeffRef(outlet, outlet) += 1;
-  if (!layout_.windkessel_pressure) return;
-  const int stored = layout_.unknown(*layout_.windkessel_pressure);
-  matrix.coeffRef(outlet, stored) -= 1;
-  matrix.coeffRef(stored, stored) += problem_.outlet.compliance * c + 1 / problem_.outlet.resistance;
+  for (const auto& entry : coupled::scalar_tangent(problem_.outlet, layout_, c))
+    matrix.coeffRef(entry.row, entry.column) += entry.value;
 }
 
 double Assembler::flow(const Stage& stage, std::span<const double> y, Boundary boundary) const {
@@ -297,6 +223,96 @@ double Assembler::flow(const Stage& stage, std::span<const double> y, Boundary b
     sum += result.flow;
   }
   return sum;
+}
+
+namespace {
+
+/// Factors of the derivative, whose pattern stays.
+class FactorisedTangent final : public coupled::TangentSolver {
+ public:
+  explicit FactorisedTangent(const Assembler& assembler)
+      : assembler_(assembler), matrix_(assembler.pattern()) {}
+
+  bool factorise(const Stage& stage, std::span<const double> y) override {
+    assembler_.tangent(stage, y, matrix_);
+    return solver_.factorise(matrix_);
+  }
+  bool solve(std::span<double> right_hand_side) override {
+    solver_.solve(right_hand_side);
+    return true;
+  }
+  void forget() override { solver_.forget(); }
+  double entries() const override { return solver_.entries(); }
+
+ private:
+  const Assembler& assembler_;
+  SparseMatrix matrix_;
+  DirectSolver solver_;
+};
+
+}  // namespace
+
+std::unique_ptr<coupled::TangentSolver> Assembler::tangent_solver() const {
+  return std::make_unique<FactorisedTangent>(*this);
+}
+
+std::vector<double> Assembler::volume_shares() const {
+  const Mesh& mesh = problem_.mesh;
+  std::vector<double> shares(mesh.points.size(), 0.0);
+  const int count = counts(mesh.shape, problem_.discretisation.element).displacement;
+  const auto add = [&](const auto& tables) {
+    for (const auto& table : tables)
+      for (const auto& point : table.points)
+        for (int k = 0; k < count; ++k)
+          shares[mesh.cells[table.cell].nodes[k]] += point.weight * point.displacement.lift[0][k];
+  };
+  if (has_wall())
+    add(tables_.wall);
+  else
+    add(tables_.blood);
+  const double whole = std::accumulate(shares.begin(), shares.end(), 0.0);
+  for (double& share : shares) share /= whole;
+  return shares;
+}
+
+namespace {
+
+std::string place_of(const Mesh& mesh, int cell, int node) {
+  return fmt::format("r = {:.4g}, z = {:.4g} cm (cell {} of {})", mesh.points[node][0], mesh.points[node][1],
+                     cell, mesh.cells.size());
+}
+
+/// A wall that bulges or caves in beside an end that is held leans over it.
+bool beside_clamped_end(const Problem& problem, const Point& place) {
+  const Extent ends = extent(problem.mesh);
+  const double near = 2 * inlet_radius(problem.mesh);
+  return problem.on(Boundary::wall_inlet).displacement[0] &&
+         (place[1] < ends.inlet + near || place[1] > ends.outlet - near);
+}
+
+}  // namespace
+
+std::string Assembler::place_of_node(int node) const {
+  const Mesh& mesh = problem_.mesh;
+  const auto cell = std::find_if(mesh.cells.begin(), mesh.cells.end(), [&](const Cell& c) {
+    return std::find(c.nodes.begin(), c.nodes.end(), node) != c.nodes.end();
+  });
+  return place_of(mesh, static_cast<int>(cell - mesh.cells.begin()), node);
+}
+
+std::string Assembler::compression(const LeastJacobian& least) const {
+  const Mesh& mesh = problem_.mesh;
+  const Cell& cell = mesh.cells[least.cell];
+  const bool blood = cell.part == Part::blood;
+  const int centre = cell.nodes[mesh.centre_node()];
+  std::string text = fmt::format(
+      "; the {} is {} at {}", blood ? "blood's mesh" : "wall",
+      least.value > 0 ? fmt::format("compressed to J = {:.2g}", least.value) : "turned inside out",
+      place_of(mesh, least.cell, centre));
+  if (!blood) return text;
+  if (beside_clamped_end(problem_, mesh.points[centre]))
+    return text + ", beside a clamped end; geometry.ends = \"sliding\" bears more";
+  return problem_.discretisation.stiffened_mesh ? text : text + "; mesh.motion = \"stiffened\" may bear more";
 }
 
 }  // namespace tunica::axisym

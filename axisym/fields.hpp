@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "axisym/wall_state.hpp"
-#include "core/observables/field_series.hpp"
+#include "core/coupled/vessel_run.hpp"
 
 namespace tunica::axisym {
 
@@ -18,14 +18,15 @@ namespace tunica::axisym {
 /// boundaries of layers are there once for each, so that jumps stay); recruitment, fiber_stretch and
 /// fiber_direction (deformed, of unit length) of family 1, and with ".2" and so on of further families that
 /// do not act alike, NaN in layers without such a family.
-class Fields {
+class Fields final : public coupled::Picturing {
  public:
   explicit Fields(const Assembler& assembler);
 
   /// Meshes and names for the parts that there are, blood before wall. No frames.
-  std::vector<observables::FieldSeries> empty_series() const;
+  std::vector<observables::FieldSeries> empty_series() const override;
   /// Appends a frame to each of the series that empty_series has made.
-  void append(double time, std::span<const double> y, std::span<observables::FieldSeries> series) const;
+  void append(double time, std::span<const double> y,
+              std::span<observables::FieldSeries> series) const override;
 
  private:
   /// A node of the mesh as a point of the picture.

@@ -1,66 +1,58 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <span>
+#include "axisym/layout.hpp"
+#include "axisym/tables.hpp"
+#include "core/coupled/gather.hpp"
 
-#include "axisym/assembler.hpp"
-
-/// What kernels need of a state: the nodal values and rates of a cell or side, and the parameters of its
-/// equations.
+/// The nodes of a cell, and the parameters of its equations.
 namespace tunica::axisym {
 
 using BloodNodes = kernel::BloodNodes<Frame, cell_width>;
 using WallNodes = kernel::WallNodes<Frame, cell_width>;
 using SideNodes = kernel::SideNodes<Frame, side_width>;
+using coupled::Stage;
 
-inline double rate(const Stage& stage, std::span<const double> y, std::size_t entry) {
-  const double history = stage.history.empty() ? 0 : stage.history[entry];
-  return stage.coefficient * y[entry] + history;
+/// Nodes of a cell by the fields of its part.
+class CellNodes {
+ public:
+  CellNodes(const Mesh& mesh, Element element, const Cell& cell)
+      : counts_(counts(mesh.shape, element)), nodes_(cell.nodes), velocity_(cell.nodes) {
+    for (int k = 0; k < counts_.velocity; ++k) velocity_[k] = velocity_node(mesh, element, cell, k);
+  }
+  std::span<const int> displacement() const {
+    return {nodes_.data(), static_cast<std::size_t>(counts_.displacement)};
+  }
+  coupled::BloodCellNodes blood() const {
+    return {displacement(),
+            {velocity_.data(), static_cast<std::size_t>(counts_.velocity)},
+            {nodes_.data(), static_cast<std::size_t>(counts_.pressure)}};
+  }
+
+ private:
+  Counts counts_;
+  std::array<int, 9> nodes_, velocity_;
+};
+
+inline std::span<const int> nodes_of(const SideTable& side) {
+  return {side.nodes.data(), static_cast<std::size_t>(side.count)};
 }
 
 inline BloodNodes blood_nodes(const Problem& problem, const Layout& layout, const Cell& cell,
                               const Stage& stage, std::span<const double> y) {
-  const Element element = problem.discretisation.element;
-  const Counts n = counts(problem.mesh.shape, element);
-  BloodNodes nodes;
-  for (int c = 0; c < 2; ++c) {
-    for (int k = 0; k < n.displacement; ++k) {
-      const std::size_t entry = layout.displacement(cell.nodes[k], c);
-      nodes.displacement.value[c][k] = y[entry];
-      nodes.mesh_velocity.value[c][k] = rate(stage, y, entry);
-    }
-    for (int k = 0; k < n.velocity; ++k) {
-      const std::size_t entry = layout.velocity(velocity_node(problem.mesh, element, cell, k), c);
-      nodes.velocity.value[c][k] = y[entry];
-      nodes.acceleration.value[c][k] = rate(stage, y, entry);
-    }
-  }
-  for (int k = 0; k < n.pressure; ++k) nodes.pressure[k] = y[layout.pressure(cell.nodes[k])];
-  return nodes;
+  const CellNodes nodes(problem.mesh, problem.discretisation.element, cell);
+  return coupled::blood_nodes<Frame, cell_width>(layout, nodes.blood(), stage, y);
 }
 
 inline WallNodes wall_nodes(const Problem& problem, const Layout& layout, const Cell& cell,
                             const Stage& stage, std::span<const double> y) {
-  WallNodes nodes;
-  for (int c = 0; c < 2; ++c)
-    for (int k = 0; k < counts(problem.mesh.shape, problem.discretisation.element).displacement; ++k) {
-      nodes.displacement.value[c][k] = y[layout.displacement(cell.nodes[k], c)];
-      nodes.acceleration.value[c][k] = rate(stage, y, layout.velocity(cell.nodes[k], c));
-    }
-  return nodes;
+  const CellNodes nodes(problem.mesh, problem.discretisation.element, cell);
+  return coupled::wall_nodes<Frame, cell_width>(layout, nodes.displacement(), stage, y);
 }
 
 inline SideNodes side_nodes(const Layout& layout, const SideTable& side, const Stage& stage,
                             std::span<const double> y) {
-  SideNodes nodes;
-  for (int c = 0; c < 2; ++c)
-    for (int k = 0; k < side.count; ++k) {
-      const std::size_t d = layout.displacement(side.nodes[k], c);
-      nodes.displacement.value[c][k] = y[d];
-      nodes.mesh_velocity.value[c][k] = rate(stage, y, d);
-      nodes.velocity.value[c][k] = y[layout.velocity(side.nodes[k], c)];
-    }
-  return nodes;
+  return coupled::side_nodes<Frame, side_width>(layout, nodes_of(side), stage, y);
 }
 
 inline kernel::BloodParameters blood_parameters(const Problem& problem, const BloodTable& table,

@@ -1,68 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <optional>
-#include <vector>
-
 #include "axisym/problem.hpp"
+#include "core/coupled/layout.hpp"
 
 namespace tunica::axisym {
 
-/// Where everything stands in the state, a flat vector y, and which of its entries are unknowns.
-///
-/// y = (displacement of all nodes, velocity of all nodes, blood pressure at corners, scalars). The
-/// displacement is one field: that of the wall, continued into the blood as the motion of the mesh. On the
-/// wall, its surface towards the blood included, the velocity is the rate of the displacement and no unknown,
-/// so that blood adheres to it by construction.
-class Layout {
- public:
-  explicit Layout(const Problem& problem);
+using coupled::Layout;
 
-  std::size_t size() const { return size_; }
-  int unknowns() const { return static_cast<int>(entries_.size()); }
-
-  std::size_t displacement(int node, int component) const { return 2 * node + component; }
-  std::size_t velocity(int node, int component) const { return velocity_ + 2 * node + component; }
-  std::size_t pressure(int node) const { return pressure_ + pressure_index_[node]; }
-  bool has_pressure(int node) const { return pressure_index_[node] >= 0; }
-  std::size_t pressures() const { return scalar_ - pressure_; }
-  std::size_t velocity_begin() const { return velocity_; }
-  std::size_t pressure_begin() const { return pressure_; }
-  std::size_t scalar_begin() const { return scalar_; }
-
-  /// Scalars: pressure that drives a given flow in, pressure at the outlet, pressure in the Windkessel.
-  std::optional<std::size_t> inlet_pressure, outlet_pressure, windkessel_pressure;
-
-  /// Number of the unknown at an entry of y, or -1.
-  int unknown(std::size_t entry) const { return unknown_[entry]; }
-  /// Entry of y of an unknown.
-  std::size_t entry(int unknown) const { return entries_[unknown]; }
-
-  /// True on the wall and on its surfaces: the velocity is the rate of the displacement.
-  bool on_wall(int node) const { return on_wall_[node]; }
-  bool has_displacement(int node) const { return has_displacement_[node]; }
-  bool has_velocity(int node) const { return has_velocity_[node]; }
-  const std::vector<int>& wall_nodes() const { return wall_nodes_; }
-
-  /// Entries whose values are prescribed: the node's place gives the value.
-  struct PrescribedEntry {
-    std::size_t entry;
-    int node;
-    int component;
-    bool is_velocity;
-  };
-  const std::vector<PrescribedEntry>& prescribed() const { return prescribed_; }
-
- private:
-  void mark_nodes(const Problem& problem);
-  void number(const Problem& problem);
-
-  std::size_t velocity_ = 0, pressure_ = 0, scalar_ = 0, size_ = 0;
-  std::vector<int> pressure_index_, unknown_;
-  std::vector<std::size_t> entries_;
-  std::vector<bool> on_wall_, has_displacement_, has_velocity_;
-  std::vector<int> wall_nodes_;
-  std::vector<PrescribedEntry> prescribed_;
-};
+/// The layout of a problem's state.
+Layout layout_of(const Problem& problem);
 
 }  // namespace tunica::axisym

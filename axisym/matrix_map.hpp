@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <array>
-#include <optional>
 #include <vector>
 
 #include "axisym/direct_solver.hpp"
+#include "axisym/gather.hpp"
 #include "axisym/layout.hpp"
-#include "axisym/tables.hpp"
+#include "core/coupled/numbers.hpp"
 
 namespace tunica::axisym {
 
@@ -15,17 +14,12 @@ using BloodTangent = kernel::BloodTangent<Frame, cell_width>;
 using WallTangent = kernel::WallTangent<Frame, cell_width>;
 using SideTangent = kernel::SideTangent<Frame, side_width>;
 
-/// Unknowns of a cell's or side's test and trial functions, -1 where there is none, [component][function].
-struct Numbers {
-  std::array<std::array<int, cell_width>, 2> momentum, mesh, velocity, displacement;
-  std::array<int, cell_width> continuity, pressure;
-  std::array<bool, cell_width> adheres;  ///< the velocity is the rate of the displacement
+using CellNumbers = coupled::Numbers<Frame, cell_width>;
+using SideNumbers = coupled::Numbers<Frame, side_width>;
 
-  Numbers();
-};
-
-/// A cell's or side's numbers, and the places in the matrix of its entries in the order in which scatter()
-/// visits them.
+/// A cell's or side's numbers, and the places in the matrix of its entries, -1 where there is none, in the
+/// order of coupled::visit_entries.
+template <class Numbers>
 struct Targets {
   Numbers numbers;
   std::vector<int> places;
@@ -38,34 +32,28 @@ class MatrixMap {
 
   const SparseMatrix& pattern() const { return pattern_; }
   /// In the order of the tables.
-  const std::vector<Targets>& blood() const { return blood_; }
-  const std::vector<Targets>& wall() const { return wall_; }
-  const std::vector<Targets>& sides() const { return sides_; }
-
-  /// Entry of y that holds the pressure on a boundary, none when there is no such unknown.
-  std::optional<std::size_t> pressure_entry(Boundary boundary) const;
-  /// Scalar equations that the flow out through a boundary enters.
-  struct ScalarRow {
-    std::size_t entry;  ///< of y
-    double factor;      ///< on the flow out
-  };
-  std::vector<ScalarRow> scalar_rows(Boundary boundary) const;
+  const std::vector<Targets<CellNumbers>>& blood() const { return blood_; }
+  const std::vector<Targets<CellNumbers>>& wall() const { return wall_; }
+  const std::vector<Targets<SideNumbers>>& sides() const { return sides_; }
 
  private:
-  Numbers cell_numbers(int cell) const;
-  Numbers side_numbers(const SideTable& side) const;
   void build_pattern(const Tables& tables);
 
   const Problem& problem_;
   const Layout& layout_;
-  std::vector<Targets> blood_, wall_, sides_;
+  std::vector<Targets<CellNumbers>> blood_, wall_;
+  std::vector<Targets<SideNumbers>> sides_;
   SparseMatrix pattern_;
 };
 
-/// Adds a tangent to the matrix; the columns of a velocity that is the rate of a displacement are those of
-/// the displacement, times d(rate)/d(displacement).
-void scatter(const BloodTangent& tangent, const Targets& targets, double coefficient, double* values);
-void scatter(const WallTangent& tangent, const Targets& targets, double coefficient, double* values);
-void scatter(const SideTangent& tangent, const Targets& targets, double coefficient, double* values);
+/// Adds a tangent to the values of the matrix.
+template <class Tangent, class Numbers>
+void scatter(const Tangent& tangent, const Targets<Numbers>& targets, double coefficient, double* values) {
+  const int* place = targets.places.data();
+  coupled::visit_entries(tangent, targets.numbers, coefficient, [&](double entry) {
+    if (*place >= 0) values[*place] += entry;
+    ++place;
+  });
+}
 
 }  // namespace tunica::axisym

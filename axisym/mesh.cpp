@@ -8,16 +8,6 @@
 
 namespace tunica::axisym {
 
-std::string_view name(Part part) {
-  return part == Part::blood ? "blood" : "wall";
-}
-
-std::string_view name(Boundary boundary) {
-  constexpr std::array<std::string_view, 7> names = {"axis",  "inlet",      "outlet",     "interface",
-                                                     "outer", "wall_inlet", "wall_outlet"};
-  return names[static_cast<std::size_t>(boundary)];
-}
-
 std::array<int, 3> Mesh::side_nodes(int cell, int side) const {
   std::array<int, 3> nodes = element::side_nodes(shape, side);
   for (int& node : nodes) node = cells[cell].nodes[node];

@@ -2,21 +2,16 @@
 #pragma once
 
 #include <array>
-#include <string_view>
 #include <vector>
 
+#include "core/coupled/vessel.hpp"
 #include "core/element/cell.hpp"
 
 namespace tunica::axisym {
 
+using coupled::Boundary;
+using coupled::Part;
 using element::CellShape;  // one shape in a mesh
-enum class Part { blood, wall };
-/// wall_inlet and wall_outlet are the end faces of the wall.
-enum class Boundary { axis, inlet, outlet, interface, outer, wall_inlet, wall_outlet };
-
-/// The names that mesh files and messages use: "blood", "wall_inlet", ...
-std::string_view name(Part part);
-std::string_view name(Boundary boundary);
 
 /// Corners counter-clockwise with r to the right and z up, then the nodes in the middle of side i, which
 /// goes from corner i to corner i + 1, then the centre. A triangle has 7 nodes, its centre being the image

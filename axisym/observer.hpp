@@ -6,15 +6,14 @@
 
 #include "axisym/interface_line.hpp"
 #include "axisym/wall_line.hpp"
-#include "core/observables/event_log.hpp"
-#include "core/observables/result.hpp"
+#include "core/coupled/vessel_run.hpp"
 
 namespace tunica::axisym {
 
 /// Turns states of the vessel (see Layout) into the tables of a result. Mid-length is half way between the
 /// inlet and the outlet of the unloaded vessel; P1..P4 divide the wall there from the inner to the outer
 /// surface. What a vessel has not (blood, wall, fibres) is observables::none.
-class Observer {
+class Observer final : public coupled::Observing {
  public:
   explicit Observer(const Assembler& assembler);
   Observer(const Observer&) = delete;
@@ -24,20 +23,22 @@ class Observer {
   /// relative to an inlet and an outlet which do not move along their normals.
   observables::Sample sample(double time, std::span<const double> y) const;
 
-  /// Rows of profiles.csv: the wall at mid-length from the inner to the outer surface; none without a wall.
-  void append_profile(double time, std::span<const double> y, observables::Table& profiles) const;
+  observables::Table observables_table() const override { return observables::standard_table(); }
+  void append_observables(double time, std::span<const double> y, observables::Table& table) const override {
+    observables::append(table, sample(time, y));
+  }
+  void append_profile(double time, std::span<const double> y, observables::Table& profiles) const override;
 
   /// along.csv, with a row for each node of the interface, from the inlet to the outlet: time[s], z[cm] and
   /// lumen_radius[cm] (both current), pressure[dyn/cm2] at the wall, wall_shear_stress[dyn/cm2] on the wall
   /// (positive downstream), radial_displacement[cm], von_mises.inner[dyn/cm2] in the wall's inner surface.
-  observables::Table along_table() const;
-  void append_along(double time, std::span<const double> y, observables::Table& along) const;
+  observables::Table along_table() const override;
+  void append_along(double time, std::span<const double> y, observables::Table& along) const override;
 
-  /// Event functions: I4bar - a^2 of the families at P1..P4. Of families that act alike (equal |angle| and
-  /// threshold) the first has an event.
-  int events() const { return static_cast<int>(events_.size()); }
-  void event_values(std::span<const double> y, double* values) const;
-  observables::EventPlace event_place(int event) const { return events_[event]; }
+  /// Families act alike here when their |angle| and threshold are equal.
+  int events() const override { return static_cast<int>(events_.size()); }
+  void event_values(std::span<const double> y, double* values) const override;
+  observables::EventPlace event_place(int event) const override { return events_[event]; }
 
  private:
   double section_pressure(std::span<const double> y) const;

@@ -1,94 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <array>
-#include <functional>
-#include <vector>
-
 #include "axisym/mesh.hpp"
-#include "core/physics/blood.hpp"
-#include "core/physics/tether.hpp"
-#include "core/wall/law.hpp"
+#include "core/coupled/conditions.hpp"
 
 namespace tunica::axisym {
 
 using Point = std::array<double, 2>;  ///< (r, z) in the reference mesh, cm
 
-/// Bases of velocity, displacement and pressure.
-///   quadratic  velocity and displacement quadratic, blood pressure continuous and linear (Taylor-Hood), wall
-///              pressure linear in each cell: orders 3, 3 and 2;
-///   linear     all linear, the pressure stabilised; wall pressure constant in each cell;
-///   bubble     the paper's: velocity linear with a bubble, all else linear; triangles only.
-enum class Element { quadratic, linear, bubble };
-
-struct Discretisation {
-  Element element = Element::quadratic;
-  /// Interpolate the wall pressure on its own, so that nearly incompressible tissue does not lock. Laws
-  /// without a volumetric split, and the bubble element, use the law's own stress.
-  bool mixed_wall = true;
-  /// Make small cells of the blood's mesh stiffer (by the inverse square of their size), which keeps them
-  /// from inverting under large motion of the wall.
-  bool stiffened_mesh = false;
-};
-
-/// Which components (r, z) are prescribed on a boundary. The velocity on the wall is that of the wall.
-struct Prescribed {
-  std::array<bool, 2> displacement{false, false};
-  std::array<bool, 2> velocity{false, false};
-};
-
-enum class InletKind {
-  prescribed,  ///< by the velocity on the boundary
-  flow,        ///< flow through it, by an unknown uniform pressure
-  pressure     ///< uniform pressure
-};
-struct InletCondition {
-  InletKind kind = InletKind::prescribed;
-  std::function<double(double time)> value;  ///< flow into the vessel, cm3/s, or pressure, dyn/cm2
-};
-
-enum class OutletKind {
-  prescribed,  ///< by the velocity on the boundary
-  resistance,  ///< p = p_v + R Q (paper eq. 18 with the sign corrected)
-  windkessel   ///< p = p_c + R_prox Q, C dp_c/dt = Q - (p_c - p_v)/R
-};
-struct OutletCondition {
-  OutletKind kind = OutletKind::resistance;
-  double resistance = 0;                                                     ///< R, dyn s/cm5
-  double proximal_resistance = 0;                                            ///< R_prox
-  double compliance = 0;                                                     ///< C, cm5/dyn
-  std::function<double(double time)> pressure = [](double) { return 0.0; };  ///< p_v, dyn/cm2
-  double backflow = 0;  ///< beta of physics::backflow_load
-};
-
-/// Loads besides those of a vessel, per unit reference volume or area: manufactured solutions and exact ones.
-/// Empty ones are none.
-struct Loads {
-  std::function<Vector<double>(const Point&, double time)> blood_force, wall_force, mesh_force;
-  std::function<double(const Point&, double time)> blood_volume;  ///< J div v is this instead of 0
-  std::function<Vector<double>(const Point&, double time, Boundary)> traction;
-};
+using coupled::Discretisation;
+using coupled::Element;
+using coupled::InletCondition;
+using coupled::InletKind;
+using coupled::OutletCondition;
+using coupled::OutletKind;
+using Loads = coupled::Loads<2>;
+using Prescribed = coupled::Prescribed<2>;  ///< components (r, z)
 
 /// Everything that is computed with: a vessel in the frame (r, theta, z), or its blood or its wall alone.
-struct Problem {
+struct Problem : coupled::Conditions<2> {
   Mesh mesh;
-  Discretisation discretisation;
-  physics::Blood blood{1.0, 0.035};
-  std::vector<wall::Law<double>> laws;  ///< by layer
-  double wall_density = 0;
-  physics::Tether tether{0};
-  InletCondition inlet;
-  OutletCondition outlet;
-  /// Pressure on the inner surface of a wall without blood, dyn/cm2.
-  std::function<double(double time)> lumen_pressure = [](double) { return 0.0; };
-  std::array<Prescribed, 7> prescribed{axis()};  ///< by Boundary; on the axis nothing moves across it
-  /// Values where they are prescribed; empty for zero.
-  std::function<Vector<double>(const Point&, double time)> displacement, velocity;
-  Loads loads;
-
-  Prescribed& on(Boundary boundary) { return prescribed[static_cast<std::size_t>(boundary)]; }
-  static constexpr Prescribed axis() { return {{true, false}, {true, false}}; }
-  const Prescribed& on(Boundary boundary) const { return prescribed[static_cast<std::size_t>(boundary)]; }
 };
 
 }  // namespace tunica::axisym

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "axisym/mesh.hpp"
-#include "axisym/simulation.hpp"
 #include "core/scene/scene.hpp"
 
 namespace tunica::axisym {

@@ -6,23 +6,16 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "axisym/locate.hpp"
 #include "core/error.hpp"
 #include "core/radial/compressible_ring.hpp"
 #include "core/radial/from_scene.hpp"
-#include "core/radial/wall_curve.hpp"
-#include "core/wall/from_scene.hpp"
 
 namespace tunica::axisym {
 
 namespace {
-
-Element element_from(const std::string& name) {
-  if (name == "linear") return Element::linear;
-  if (name == "bubble") return Element::bubble;
-  return Element::quadratic;
-}
 
 void set_ends(const Scene& scene, Problem& problem) {
   const bool clamped = scene.text("geometry.ends") == "clamped";
@@ -80,23 +73,6 @@ void set_inlet(const Scene& scene, Setup& setup) {
   };
 }
 
-void set_outlet(const Scene& scene, Setup& setup) {
-  OutletCondition& outlet = setup.problem.outlet;
-  outlet.resistance = scene.number("outlet.resistance");
-  const double beyond = scene.number("outlet.pressure");
-  const Setup* const here = &setup;
-  // From rest all loads grow together: a pressure beyond the outlet that is there at once would be a blow.
-  outlet.pressure = [here, beyond](double time) { return here->load * beyond * here->inlet.growth_at(time); };
-  outlet.backflow = scene.number("outlet.backflow");
-  if (scene.text("outlet.kind") != "rcr") return;
-  if (outlet.resistance == 0)
-    throw InvalidInput(
-        "outlet.resistance = 0 with outlet.kind = \"rcr\" shorts its compliance; set it above 0");
-  outlet.kind = OutletKind::windkessel;
-  outlet.proximal_resistance = scene.number("outlet.proximal_resistance");
-  outlet.compliance = scene.number("outlet.compliance");
-}
-
 /// Fibres that are not in balance between +beta and -beta twist the wall, which this frame cannot follow.
 void require_balance(const std::vector<wall::Law<double>>& laws) {
   constexpr double rounding = 1e-9;
@@ -131,28 +107,6 @@ std::unique_ptr<const radial::RingModel> ring_at(const Scene& scene, const Secti
                                                     std::vector<radial::RingModel::Seeded>{});
 }
 
-void estimate_sizes(const Scene& scene, Setup& setup, const Section& section) {
-  const double inlet = std::abs(setup.inlet_scale) * setup.inlet.greatest_shape();
-  const double area = std::numbers::pi * setup.lumen_radius * setup.lumen_radius;
-  if (setup.inlet.is_pressure) {
-    setup.expected_pressure = inlet;
-  } else {
-    double resistance = scene.number("outlet.resistance");
-    if (scene.text("outlet.kind") == "rcr") resistance += scene.number("outlet.proximal_resistance");
-    setup.expected_pressure = std::abs(scene.number("outlet.pressure")) + resistance * inlet;
-    setup.expected.velocity = 2 * inlet / area;
-  }
-  setup.expected.pressure = setup.expected_pressure;
-  if (!setup.ring || setup.expected_pressure <= 0) return;
-  // A quarter of the pressure is carried even by walls that give way at the whole of it.
-  try {
-    const radial::WallCurve curve(ring_at(scene, section), {0.0});
-    setup.expected.displacement = (curve.stretch_at(0.25 * setup.expected_pressure) - 1) * setup.lumen_radius;
-  } catch (const SolverFailure&) {
-    // The sizes that the run sees will do.
-  }
-}
-
 }  // namespace
 
 std::unique_ptr<Setup> setup_of(const Scene& scene) {
@@ -161,42 +115,34 @@ std::unique_ptr<Setup> setup_of(const Scene& scene) {
 
 std::unique_ptr<Setup> setup_of(const Scene& scene, const Resolution& resolution) {
   auto setup = std::make_unique<Setup>();
-  setup->inlet = inlet_from_scene(scene);
-  setup->inlet_scale = setup->inlet.scale_key.empty() ? 1.0 : scene.number(setup->inlet.scale_key);
+  coupled::set_source(scene, *setup);
   setup->resolution = resolution;
-  const bool is_static = scene.text("time.mode") == "static";
-  if (is_static) setup->inlet.ramp = 0;
-  // Blood at rest under pressure does nothing but press on the wall.
-  const bool with_blood = !(is_static && setup->inlet.is_pressure);
+  const bool with_blood = coupled::needs_blood(scene, *setup);
 
   Problem& problem = setup->problem;
   problem.mesh = mesh_of(scene, setup->resolution, with_blood);
-  problem.discretisation = {element_from(scene.text("mesh.element")), scene.flag("mesh.mixed_wall"),
-                            scene.text("mesh.motion") == "stiffened"};
-  problem.blood = {scene.number("blood.density"), scene.number("blood.viscosity")};
-  for (const auto& layer : wall::wall_from_scene(SeededScene<double>(scene)))
-    problem.laws.push_back(layer.law);
+  coupled::set_conditions(scene, *setup, problem);
   if (problem.mesh.has(Part::wall) && problem.mesh.layers() != static_cast<int>(problem.laws.size()))
     throw InvalidInput(fmt::format(
         "geometry.file has {} layer{} of the wall, the scene describes {}; give each layer of the mesh its "
         "[[wall.layers]], and no more",
         problem.mesh.layers(), problem.mesh.layers() == 1 ? "" : "s", problem.laws.size()));
   require_balance(problem.laws);
-  problem.wall_density = scene.number("wall.density");
-  const auto ring = radial::ring_from_scene(SeededScene<double>(scene));
-  problem.tether = {ring.tether_stiffness, ring.traction};
+  setup->wall_density = problem.wall_density;
   set_ends(scene, problem);
 
   const Extent ends = extent(problem.mesh);
   const Section middle = section_at(problem.mesh, 0.5 * (ends.inlet + ends.outlet));
   setup->lumen_radius = middle.inner;
-  if (problem.mesh.has(Part::wall))
+  std::unique_ptr<const radial::RingModel> ring;
+  if (problem.mesh.has(Part::wall)) {
     setup->ring = ring_at(scene, middle);
-  else
+    ring = ring_at(scene, middle);
+  } else {
     problem.on(Boundary::interface).displacement = {true, true};
+  }
   if (problem.mesh.has(Part::blood)) {
     set_inlet(scene, *setup);
-    set_outlet(scene, *setup);
   } else {
     if (!setup->inlet.is_pressure)
       throw InvalidInput(
@@ -206,7 +152,8 @@ std::unique_ptr<Setup> setup_of(const Scene& scene, const Resolution& resolution
     const Setup* const here = setup.get();
     problem.lumen_pressure = [here](double time) { return here->inlet_value(time); };
   }
-  estimate_sizes(scene, *setup, middle);
+  coupled::estimate_sizes(scene, std::move(ring), *setup);
+  coupled::set_steady_pressure(problem, problem.mesh.has(Part::blood), *setup);
   return setup;
 }
 

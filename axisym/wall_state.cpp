@@ -4,36 +4,22 @@
 #include <algorithm>
 #include <cmath>
 
+#include "axisym/gather.hpp"
+
 namespace tunica::axisym {
-
-namespace {
-
-template <class Entry>
-kernel::NodalVector<Frame, cell_width> gather(const Problem& problem, int cell, std::span<const double> y,
-                                              const Entry& entry) {
-  const int count = counts(problem.mesh.shape, problem.discretisation.element).displacement;
-  kernel::NodalVector<Frame, cell_width> nodal;
-  for (int c = 0; c < 2; ++c)
-    for (int k = 0; k < count; ++k) nodal.value[c][k] = y[entry(problem.mesh.cells[cell].nodes[k], c)];
-  return nodal;
-}
-
-kernel::NodalVector<Frame, cell_width> gather_displacement(const Problem& problem, const Layout& layout,
-                                                           int cell, std::span<const double> y) {
-  return gather(problem, cell, y, [&](int node, int c) { return layout.displacement(node, c); });
-}
-
-}  // namespace
 
 kernel::NodalVector<Frame, cell_width> nodal_displacement(const Assembler& assembler, int cell,
                                                           std::span<const double> y) {
-  return gather_displacement(assembler.problem(), assembler.layout(), cell, y);
+  const Problem& problem = assembler.problem();
+  const CellNodes nodes(problem.mesh, problem.discretisation.element, problem.mesh.cells[cell]);
+  return coupled::nodal_displacement<Frame, cell_width>(assembler.layout(), nodes.displacement(), y);
 }
 
 kernel::NodalVector<Frame, cell_width> nodal_velocity(const Assembler& assembler, int cell,
                                                       std::span<const double> y) {
-  const Layout& layout = assembler.layout();
-  return gather(assembler.problem(), cell, y, [&](int node, int c) { return layout.velocity(node, c); });
+  const Problem& problem = assembler.problem();
+  const CellNodes nodes(problem.mesh, problem.discretisation.element, problem.mesh.cells[cell]);
+  return coupled::nodal_velocity<Frame, cell_width>(assembler.layout(), nodes.displacement(), y);
 }
 
 void WallStrain::add(double factor, const WallStrain& other) {
@@ -42,11 +28,12 @@ void WallStrain::add(double factor, const WallStrain& other) {
   pressure += factor * other.pressure;
 }
 
-WallCell::WallCell(const Problem& problem, const Layout& layout, const WallTable& table,
-                   std::span<const double> y)
-    : problem_(problem), table_(table), displacement_(gather_displacement(problem, layout, table.cell, y)) {
+WallCell::WallCell(const Assembler& assembler, const WallTable& table, std::span<const double> y)
+    : problem_(assembler.problem()),
+      table_(table),
+      displacement_(nodal_displacement(assembler, table.cell, y)) {
   if (table.pressure_terms == 0) return;
-  const kernel::WallParameters parameters{&problem.laws[table.layer], 0, 0, table.pressure_terms};
+  const kernel::WallParameters parameters{&problem_.laws[table.layer], 0, 0, table.pressure_terms};
   kernel::WallNodes<Frame, cell_width> nodes;
   nodes.displacement = displacement_;
   pressure_.emplace(parameters, table.points, kernel::gradients(table.points, nodes));
@@ -73,7 +60,7 @@ WallReader::WallReader(const Assembler& assembler) : assembler_(assembler) {
 }
 
 WallCell WallReader::cell(int cell, std::span<const double> y) const {
-  return {assembler_.problem(), assembler_.layout(), *tables_[cell], y};
+  return {assembler_, *tables_[cell], y};
 }
 
 WallStrain WallReader::mean(std::span<const Place> places, std::span<const double> y) const {

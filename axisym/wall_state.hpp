@@ -28,7 +28,7 @@ struct WallStrain {
 /// The wall in one of its cells at a state. Keeps references to the table and the problem.
 class WallCell {
  public:
-  WallCell(const Problem& problem, const Layout& layout, const WallTable& table, std::span<const double> y);
+  WallCell(const Assembler& assembler, const WallTable& table, std::span<const double> y);
   WallStrain at(const element::Local& local) const;
 
  private:

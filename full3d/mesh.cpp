@@ -7,16 +7,6 @@ namespace tunica::full3d {
 
 using element::solid::Basis;
 
-std::string_view name(Part part) {
-  return part == Part::blood ? "blood" : "wall";
-}
-
-std::string_view name(Boundary boundary) {
-  constexpr std::array<std::string_view, boundaries> names{
-      "inlet", "outlet", "interface", "outer", "wall_inlet", "wall_outlet", "symmetry_x", "symmetry_y"};
-  return names[static_cast<std::size_t>(boundary)];
-}
-
 bool Mesh::has(Part part) const {
   return std::any_of(cells.begin(), cells.end(), [&](const Cell& cell) { return cell.part == part; });
 }

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <array>
-#include <string_view>
 #include <vector>
 
+#include "core/coupled/vessel.hpp"
 #include "core/element/solid.hpp"
 
 namespace tunica::full3d {
@@ -12,15 +12,8 @@ namespace tunica::full3d {
 using element::solid::Shape;  // one shape in a mesh
 using Point = std::array<double, 3>;
 
-enum class Part { blood, wall };
-/// wall_inlet and wall_outlet are the end faces of the wall; symmetry_x and symmetry_y lie in the planes
-/// x = 0 and y = 0 that a vessel is cut along when the rest is its mirror image.
-enum class Boundary { inlet, outlet, interface, outer, wall_inlet, wall_outlet, symmetry_x, symmetry_y };
-inline constexpr int boundaries = 8;
-
-/// The names that mesh files and messages use: "blood", "wall_inlet", ...
-std::string_view name(Part part);
-std::string_view name(Boundary boundary);
+using coupled::Boundary;
+using coupled::Part;
 
 /// Nodes in the order of the quadratic basis of element::solid: 27 of a cube, 10 of a tetrahedron, whose
 /// node 10 is its centre, for the bubble. Entries beyond, and middles that a mesh of linear cells has not,

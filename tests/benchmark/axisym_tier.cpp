@@ -8,14 +8,19 @@
 #include <string>
 #include <vector>
 
+#include "axisym/assembler.hpp"
 #include "axisym/axisym_tier.hpp"
 #include "axisym/direct_solver.hpp"
 #include "axisym/setup.hpp"
-#include "axisym/simulation.hpp"
+#include "core/coupled/simulation.hpp"
 #include "core/error.hpp"
 
 namespace tunica::axisym {
 namespace {
+
+using coupled::NewtonCounts;
+using coupled::Simulation;
+using coupled::SimulationOptions;
 
 Scene cylinder(std::vector<std::string> overrides = {}) {
   overrides.emplace_back("output.field_interval=0");
@@ -52,7 +57,8 @@ class Artery : public benchmark::Fixture {
   void SetUp(benchmark::State& state) override {
     use_cores(static_cast<int>(state.range(0)));
     vessel_ = setup_of(cylinder({"accuracy.tolerance=1e-3"}));
-    simulation_ = std::make_unique<Simulation>(vessel_->problem, fixed_steps(*vessel_));
+    assembler_ = std::make_unique<Assembler>(vessel_->problem);
+    simulation_ = std::make_unique<Simulation>(*assembler_, fixed_steps(*vessel_));
     simulation_->start(0, std::vector<double>(simulation_->layout().size(), 0.0));
     while (simulation_->time() < 0.2) simulation_->advance(1);
     y_ = simulation_->state();
@@ -60,9 +66,9 @@ class Artery : public benchmark::Fixture {
     history_ = simulation_->rates();
     stage_ = {simulation_->time(), 1.5 / step, history_};
     residual_.resize(simulation_->layout().unknowns());
-    matrix_ = simulation_->assembler().pattern();
-    simulation_->assembler().residual(stage_, y_, residual_);
-    simulation_->assembler().tangent(stage_, y_, matrix_);
+    matrix_ = assembler_->pattern();
+    assembler_->residual(stage_, y_, residual_);
+    assembler_->tangent(stage_, y_, matrix_);
   }
   void TearDown(benchmark::State& state) override {
     const auto unknowns = static_cast<double>(simulation_->layout().unknowns());
@@ -70,11 +76,13 @@ class Artery : public benchmark::Fixture {
     state.counters["unknowns/s"] =
         benchmark::Counter(unknowns * static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
     simulation_.reset();
+    assembler_.reset();
     vessel_.reset();
   }
 
  protected:
   std::unique_ptr<axisym::Setup> vessel_;
+  std::unique_ptr<Assembler> assembler_;
   std::unique_ptr<Simulation> simulation_;
   std::vector<double> y_, history_, residual_;
   Stage stage_;
@@ -82,7 +90,7 @@ class Artery : public benchmark::Fixture {
 };
 
 BENCHMARK_DEFINE_F(Artery, residual)(benchmark::State& state) {
-  for (auto _ : state) benchmark::DoNotOptimize(simulation_->assembler().residual(stage_, y_, residual_));
+  for (auto _ : state) benchmark::DoNotOptimize(assembler_->residual(stage_, y_, residual_));
 }
 BENCHMARK_REGISTER_F(Artery, residual)
     ->ArgName("threads")
@@ -92,7 +100,7 @@ BENCHMARK_REGISTER_F(Artery, residual)
     ->UseRealTime();
 
 BENCHMARK_DEFINE_F(Artery, tangent)(benchmark::State& state) {
-  for (auto _ : state) simulation_->assembler().tangent(stage_, y_, matrix_);
+  for (auto _ : state) assembler_->tangent(stage_, y_, matrix_);
 }
 BENCHMARK_REGISTER_F(Artery, tangent)
     ->ArgName("threads")

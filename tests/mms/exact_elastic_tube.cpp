@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "axisym/assembler.hpp"
 #include "axisym/structured.hpp"
 #include "tests/mms/harmonics.hpp"
 #include "tests/support/march.hpp"

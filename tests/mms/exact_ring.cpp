@@ -7,8 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "axisym/newton.hpp"
+#include "axisym/assembler.hpp"
 #include "axisym/structured.hpp"
+#include "core/coupled/newton.hpp"
 #include "core/radial/wall_curve.hpp"
 #include "core/wall/from_scene.hpp"
 #include "tests/support/ring_cases.hpp"
@@ -63,7 +64,7 @@ class ThickRing {
         if (layout.has_displacement(static_cast<int>(n))) visit(static_cast<int>(n), exact[n].displacement);
     };
     for_each_node([&](int node, double u) { y[layout.displacement(node, 0)] = u; });
-    Newton newton(assembler);
+    coupled::Newton newton(assembler);
     const auto report = newton.solve({}, y, {1e-12, 60});
     EXPECT_TRUE(report.converged) << report.failure;
     Difference greatest;

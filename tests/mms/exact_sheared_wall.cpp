@@ -8,8 +8,9 @@
 #include <numbers>
 #include <vector>
 
-#include "axisym/newton.hpp"
+#include "axisym/assembler.hpp"
 #include "axisym/structured.hpp"
+#include "core/coupled/newton.hpp"
 #include "tests/support/lame_tube.hpp"
 
 namespace tunica::axisym {
@@ -66,7 +67,7 @@ ShearErrors sheared_wall(int wall_cells, InletKind drive) {
   const Assembler assembler(problem);
   const Layout& layout = assembler.layout();
   std::vector<double> y(layout.size());
-  Newton newton(assembler);
+  coupled::Newton newton(assembler);
   const auto report = newton.solve({}, y, {1e-11, 30});
   EXPECT_TRUE(report.converged) << report.failure;
   ShearErrors error, size;

@@ -12,6 +12,7 @@
 #include <tuple>
 #include <vector>
 
+#include "axisym/assembler.hpp"
 #include "axisym/structured.hpp"
 #include "tests/mms/harmonics.hpp"
 #include "tests/support/march.hpp"

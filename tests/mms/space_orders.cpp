@@ -8,8 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "axisym/newton.hpp"
+#include "axisym/assembler.hpp"
 #include "axisym/structured.hpp"
+#include "core/coupled/newton.hpp"
 #include "tests/mms/errors.hpp"
 
 namespace tunica::axisym::mms {
@@ -71,7 +72,7 @@ class SpaceOrders : public testing::TestWithParam<Case> {
     std::vector<double> y = nodal(problem, assembler.layout(), vessel, time);
     std::vector<double> history = nodal(problem, assembler.layout(), vessel, time, true);
     for (std::size_t e = 0; e < y.size(); ++e) history[e] -= coefficient * y[e];
-    Newton newton(assembler);
+    coupled::Newton newton(assembler);
     const auto report = newton.solve({time, coefficient, history}, y, {1e-10, 30});
     EXPECT_TRUE(report.converged) << report.failure;
     return errors(problem, assembler.layout(), y, vessel, time);

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "axisym/assembler.hpp"
 #include "axisym/structured.hpp"
 #include "tests/mms/errors.hpp"
 #include "tests/support/march.hpp"
@@ -137,7 +138,7 @@ TEST_F(TimeOrders, AreWithoutErrorsInSpace) {
   const std::vector<double> exact = nodal(problem, assembler.layout(), vessel, time);
   std::vector<double> history = nodal(problem, assembler.layout(), vessel, time, true), y = exact;
   for (std::size_t e = 0; e < y.size(); ++e) history[e] -= coefficient * y[e];
-  Newton newton(assembler);
+  coupled::Newton newton(assembler);
   ASSERT_TRUE(newton.solve({time, coefficient, history}, y, {1e-13, 20}).converged);
   for (std::size_t e = 0; e < y.size(); ++e) EXPECT_NEAR(y[e], exact[e], 1e-13);
 }

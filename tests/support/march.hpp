@@ -7,17 +7,17 @@
 #include <functional>
 #include <vector>
 
-#include "axisym/newton.hpp"
+#include "core/coupled/newton.hpp"
 #include "core/time/scheme.hpp"
 
 namespace tunica::test_support {
 
 /// Takes the steps of a time scheme that has been started; `after` sees the scheme after each. False, with
 /// a test failure, when a step is not solved.
-inline bool march(const axisym::Assembler& assembler, time::Scheme& scheme, const std::vector<double>& steps,
+inline bool march(const coupled::Equations& equations, time::Scheme& scheme, const std::vector<double>& steps,
                   double newton_tolerance, const std::function<void()>& after = {}) {
-  axisym::Newton newton(assembler);
-  std::vector<double> state(assembler.layout().size());
+  coupled::Newton newton(equations);
+  std::vector<double> state(equations.layout().size());
   for (const double step : steps) {
     const time::Stage& at = scheme.begin(step);
     std::copy(scheme.prediction().begin(), scheme.prediction().end(), state.begin());

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "axisym/assembler.hpp"
 #include "axisym/fields.hpp"
 
 #include <fmt/format.h>

@@ -10,8 +10,9 @@
 #include <tuple>
 #include <vector>
 
-#include "axisym/newton.hpp"
+#include "axisym/assembler.hpp"
 #include "axisym/structured.hpp"
+#include "core/coupled/newton.hpp"
 #include "core/time/scheme.hpp"
 
 namespace tunica::axisym {
@@ -77,7 +78,7 @@ TEST_P(FreeStream, IsKeptByAMovingMesh) {
 
   const Assembler assembler(problem);
   const Layout& layout = assembler.layout();
-  Newton newton(assembler);
+  coupled::Newton newton(assembler);
   time::Scheme scheme(schemes[scheme_number]);
   std::vector<double> state(layout.size());
   for (std::size_t n = 0; n < problem.mesh.points.size(); ++n) {

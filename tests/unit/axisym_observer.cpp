@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "axisym/assembler.hpp"
 #include "axisym/observer.hpp"
 
 #include <fmt/format.h>
@@ -12,7 +13,7 @@
 #include <vector>
 
 #include "axisym/meeting.hpp"
-#include "axisym/newton.hpp"
+#include "core/coupled/newton.hpp"
 #include "core/frame.hpp"
 #include "tests/support/axisym_state.hpp"
 
@@ -550,7 +551,7 @@ TEST_P(StaticRing, IsThatOfTheRadialModel) {
                                 },
                                 {},
                                 {}});
-  const auto report = Newton(assembler).solve({}, y, {1e-10, 60});
+  const auto report = coupled::Newton(assembler).solve({}, y, {1e-10, 60});
   ASSERT_TRUE(report.converged) << report.failure;
   const Observer observer(assembler);
   const auto sample = observer.sample(1, y);

@@ -8,14 +8,18 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "axisym/assembler.hpp"
 #include "axisym/axisym_tier.hpp"
 #include "axisym/setup.hpp"
-#include "axisym/simulation.hpp"
+#include "core/coupled/simulation.hpp"
 #include "core/error.hpp"
 #include "core/observables/result_json.hpp"
 
 namespace tunica::axisym {
 namespace {
+
+using coupled::Simulation;
+using coupled::SimulationOptions;
 
 using Overrides = std::vector<std::string>;
 
@@ -43,10 +47,11 @@ class SavedSimulation : public testing::TestWithParam<Case> {
     if (GetParam().fixed) options.steps.first = options.steps.maximum = 2e-3;
     options.jumps = setup_->inlet.jumps(1.0);
     options.milestone = 5;
-    return std::make_unique<Simulation>(setup_->problem, options);
+    return std::make_unique<Simulation>(assembler_, options);
   }
   const Scene scene_ = coarse(GetParam().overrides);
   const std::unique_ptr<axisym::Setup> setup_ = setup_of(scene_);
+  const Assembler assembler_{setup_->problem};
 };
 
 TEST_P(SavedSimulation, GoesOnBitwiseFromEveryMilestone) {
@@ -96,7 +101,8 @@ TEST(SimulationJumps, EndAStepThatCanBeInterpolated) {
   options.steps = {.first = 1e-4, .minimum = 1e-9, .maximum = 0.01};
   options.jumps = setup->inlet.jumps(0.05);
   ASSERT_EQ(options.jumps.size(), 5U);  // 0.003, 0.02, 0.023, 0.04, 0.043
-  Simulation simulation(setup->problem, options);
+  const Assembler assembler(setup->problem);
+  Simulation simulation(assembler, options);
   simulation.start(0, std::vector<double>(simulation.layout().size(), 0.0));
   std::vector<double> met, between(simulation.layout().size());
   while (simulation.time() < 0.05) {

@@ -6,10 +6,11 @@
 #include <memory>
 #include <numbers>
 
-#include "axisym/newton.hpp"
+#include "axisym/assembler.hpp"
+#include "axisym/coarser_meshes.hpp"
 #include "axisym/setup.hpp"
-#include "axisym/static_state.hpp"
 #include "axisym/tangent_stability.hpp"
+#include "core/coupled/newton.hpp"
 #include "tests/support/strip_cases.hpp"
 
 namespace tunica::axisym {
@@ -29,10 +30,10 @@ TangentStability strip_on_mesh(const std::string& law, const std::string& tether
   const Scene scene = parse_scene("[geometry]\nradius = 0.033\n", "strip", ".", overrides);
   const auto setup = setup_of(scene);
   const Assembler assembler(setup->problem);
-  Newton newton(assembler);
-  StaticReport report;
-  const auto state = static_state(
-      scene, *setup, assembler, newton, 0, 1e-9, [] { return false; }, report);
+  coupled::Newton newton(assembler);
+  coupled::StaticReport report;
+  const auto state = coupled::static_state(
+      *setup, assembler, CoarserMeshes(scene, *setup), newton, 0, 1e-9, [] { return false; }, report);
   return tangent_stability(assembler, 0, state);
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The wall's axial direction against walls whose potential is known, surfaces and symmetries.
+#include "axisym/assembler.hpp"
 #include "axisym/wall_axes.hpp"
 
 #include <gtest/gtest.h>

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "axisym/static_state.hpp"
+#include "core/coupled/static_state.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "axisym/failure.hpp"
-#include "axisym/prolong.hpp"
+#include "core/coupled/failure.hpp"
 #include "core/error.hpp"
 #include "core/radial/wall_curve.hpp"
 
-namespace tunica::axisym {
+namespace tunica::coupled {
 
 namespace {
 
@@ -23,8 +22,8 @@ constexpr double mmhg = 1333.22387;
 class RingMeasure {
  public:
   /// For loads from none to that of `pressure`.
-  RingMeasure(const Setup& setup, double pressure) : setup_(setup), pressure_(pressure) {
-    if (!setup.ring || pressure == 0) return;
+  RingMeasure(const Loading& loading, double pressure) : loading_(loading), pressure_(pressure) {
+    if (!loading.ring || pressure == 0) return;
     try {
       double stretch = pressure > 0 ? 1.05 : 0.95;
       while (!exceeds(stretch, pressure)) {
@@ -55,11 +54,11 @@ class RingMeasure {
 
  private:
   bool exceeds(double stretch, double pressure) const {
-    const double p = setup_.ring->respond(stretch, {}, false).pressure;
+    const double p = loading_.ring->respond(stretch, {}, false).pressure;
     return pressure_ > 0 ? p > pressure : p < pressure;
   }
 
-  const Setup& setup_;
+  const Loading& loading_;
   double pressure_;
   double most_ = 0;  ///< bound of the displacements over the radius; 0 where loads are the measure
 };
@@ -101,10 +100,10 @@ class Past {
 /// Steady states on one mesh under the loads that a setup has at the time.
 class Solver {
  public:
-  Solver(const Setup& setup, const Assembler& assembler, Newton& newton, double time, double tolerance)
-      : setup_(setup), assembler_(assembler), newton_(newton), time_(time), tolerance_(tolerance) {}
+  Solver(const Loading& loading, const Equations& equations, Newton& newton, double time, double tolerance)
+      : loading_(loading), equations_(equations), newton_(newton), time_(time), tolerance_(tolerance) {}
 
-  const Assembler& assembler() const { return assembler_; }
+  const Equations& equations() const { return equations_; }
   Newton& newton() { return newton_; }
 
   NewtonReport solve(std::vector<double>& state) {
@@ -119,7 +118,7 @@ class Solver {
     constexpr double largest = 1000, least = 1e-5;  // of the first coefficient
     // A wall that gives way moves on for ever; one that comes to rest takes a third of these.
     constexpr int most_in_all = 600, most_iterations = 25;
-    const Layout& layout = assembler_.layout();
+    const Layout& layout = equations_.layout();
     std::vector<double> history(layout.size()), candidate;
     const double first = first_coefficient(pressure);
     double coefficient = first, fall = 10;
@@ -129,7 +128,7 @@ class Solver {
     for (int iterations = 0; iterations < most_in_all && coefficient <= largest * first && !interrupted();) {
       for (std::size_t e = 0; e < history.size(); ++e) history[e] = -coefficient * state[e];
       for (const int node : layout.wall_nodes())
-        for (int c = 0; c < 2; ++c) history[layout.velocity(node, c)] = 0;
+        for (int c = 0; c < layout.components(); ++c) history[layout.velocity(node, c)] = 0;
       candidate = state;
       auto report = newton_.solve({time_, coefficient, history}, candidate, {tolerance_, most_iterations});
       iterations += std::max(1, report.iterations);
@@ -152,39 +151,30 @@ class Solver {
   /// Reciprocal of a step in which tissue that resists with the pressure that drives it would move by a third
   /// of its thickness: its inertia is then about as great as its stiffness, 1/s.
   double first_coefficient(double pressure) const {
-    if (!setup_.ring) return 1e3;
-    return 3 * std::sqrt(std::abs(pressure) / setup_.problem.wall_density) / setup_.ring->ring().thickness;
+    if (!loading_.ring) return 1e3;
+    return 3 * std::sqrt(std::abs(pressure) / loading_.wall_density) / loading_.ring->ring().thickness;
   }
 
-  const Setup& setup_;
-  const Assembler& assembler_;
+  const Loading& loading_;
+  const Equations& equations_;
   Newton& newton_;
   double time_, tolerance_;
 };
 
-/// Pressure in the lumen at mid-length under the full loads of a time, as far as it is known beforehand.
-double lumen_pressure(const Setup& setup, double time) {
-  const Problem& problem = setup.problem;
-  if (!problem.mesh.has(Part::blood)) return problem.lumen_pressure(time);
-  if (problem.inlet.kind == InletKind::pressure) return problem.inlet.value(time);
-  const OutletCondition& outlet = problem.outlet;
-  return outlet.pressure(time) + (outlet.resistance + outlet.proximal_resistance) * setup.inlet_value(time);
-}
-
 /// From rest in steps of the load.
-std::vector<double> climb(Setup& setup, Solver& solver, double pressure,
+std::vector<double> climb(Loading& loading, Solver& solver, double pressure,
                           const std::function<bool()>& interrupted, StaticReport& report) {
   constexpr double step_pressure = 15 * mmhg;
-  const RingMeasure measure(setup, pressure);
+  const RingMeasure measure(loading, pressure);
   double increment = 1 / std::max(1.0, std::ceil(std::abs(pressure) / step_pressure));
   const double first = increment, smallest = increment / 32;
   Past past;
-  past.add(0, std::vector<double>(solver.assembler().layout().size(), 0.0));
+  past.add(0, std::vector<double>(solver.equations().layout().size(), 0.0));
   double reached = 0;
   int even = 0;  // states found with this increment
   while (reached < 1 && !interrupted()) {
     const double load = reached + increment > 1 - 1e-9 ? 1.0 : reached + increment;
-    setup.load = load;
+    loading.load = load;
     const double size = measure.at(load);
     std::vector<double> state;
     NewtonReport solved;
@@ -213,8 +203,8 @@ std::vector<double> climb(Setup& setup, Solver& solver, double pressure,
     increment /= 2;
     even = 0;
     if (increment >= smallest) continue;
-    const std::string why = explain(solver.assembler(), solved) + limit_of_wall(setup.ring.get(), pressure);
-    setup.load = 1;
+    const std::string why = explain(solver.equations(), solved) + limit_of_wall(loading.ring.get(), pressure);
+    loading.load = 1;
     const std::string in_lumen =
         pressure == 0 || reached == 0
             ? ""
@@ -225,37 +215,11 @@ std::vector<double> climb(Setup& setup, Solver& solver, double pressure,
   return reached < 1 ? std::vector<double>{} : past.last();
 }
 
-/// Meshes that lead from a coarse one to that of a resolution, each of at most twice the cells in a
-/// direction; without the latter.
-std::vector<Resolution> coarser_meshes(const Resolution& finest, int layers) {
-  using Count = int Resolution::*;
-  struct Direction {
-    Count count;
-    int least;
-  };
-  const Direction directions[] = {{&Resolution::wall_cells, std::max(2, layers)},
-                                  {&Resolution::blood_cells, 2},
-                                  {&Resolution::axial_cells, 16}};
-  double ratio = 1;
-  for (const auto& [count, least] : directions)
-    ratio = std::max(ratio, static_cast<double>(finest.*count) / least);
-  const int levels = static_cast<int>(std::ceil(std::log2(ratio) - 1e-9));
-  std::vector<Resolution> meshes(levels, finest);
-  for (int k = 0; k < levels; ++k) {
-    for (const auto& [count, least] : directions) {
-      if (finest.*count <= least) continue;
-      const double share = static_cast<double>(k) / levels;
-      meshes[k].*count = static_cast<int>(std::lround(least * std::pow(finest.*count / least, share)));
-    }
-    meshes[k].axial_cells += meshes[k].axial_cells % 2;
-  }
-  return meshes;
-}
-
 /// From the state on a coarser mesh; empty when that does not lead there.
-std::vector<double> refine(const Assembler& coarser, const std::vector<double>& coarse_state, Solver& solver,
-                           double pressure, const std::function<bool()>& interrupted, StaticReport& report) {
-  const auto guess = prolong(coarser, coarse_state, solver.assembler());
+std::vector<double> refine(const CoarserMeshes& meshes, const Equations& coarser,
+                           const std::vector<double>& coarse_state, Solver& solver, double pressure,
+                           const std::function<bool()>& interrupted, StaticReport& report) {
+  const auto guess = meshes.prolong(coarser, coarse_state, solver.equations());
   auto state = guess;
   if (solver.solve(state).converged) return state;
   ++report.guesses_missed;
@@ -266,42 +230,37 @@ std::vector<double> refine(const Assembler& coarser, const std::vector<double>& 
 
 }  // namespace
 
-std::vector<double> static_state(const Scene& scene, Setup& setup, const Assembler& assembler, Newton& newton,
-                                 double time, double tolerance, const std::function<bool()>& interrupted,
-                                 StaticReport& report) {
-  setup.load = 1;
-  const double pressure = lumen_pressure(setup, time);
-  std::vector<Resolution> meshes;
-  if (scene.text("geometry.kind") != "mesh")
-    meshes = coarser_meshes(setup.resolution, setup.problem.mesh.layers());
+std::vector<double> static_state(Loading& loading, const Equations& equations, const CoarserMeshes& coarser,
+                                 Newton& newton, double time, double tolerance,
+                                 const std::function<bool()>& interrupted, StaticReport& report) {
+  loading.load = 1;
+  const double pressure = loading.steady_pressure(time);
   // As good as interpolation to the next mesh needs it.
   constexpr double coarse_tolerance = 1e-5;
   std::vector<double> state;
-  std::unique_ptr<Setup> coarser_setup;
-  std::unique_ptr<const Assembler> coarser;
-  for (const Resolution& mesh : meshes) {
-    auto next_setup = setup_of(scene, mesh);
-    auto next = std::make_unique<const Assembler>(next_setup->problem);
-    Newton solving(*next);
-    Solver solver(*next_setup, *next, solving, time, coarse_tolerance);
+  std::unique_ptr<StaticMesh> mesh;
+  for (int k = 0; k < coarser.count(); ++k) {
+    auto next = coarser.make(k);
+    Newton solving(next->equations());
+    Solver solver(next->loading(), next->equations(), solving, time, coarse_tolerance);
     try {
-      state = coarser ? refine(*coarser, state, solver, pressure, interrupted, report)
-                      : climb(*next_setup, solver, pressure, interrupted, report);
+      state = mesh ? refine(coarser, mesh->equations(), state, solver, pressure, interrupted, report)
+                   : climb(next->loading(), solver, pressure, interrupted, report);
     } catch (const SolverFailure&) {
       report.coarse += solving.counts();
       throw;
     }
     report.coarse += solving.counts();
     if (state.empty() || interrupted()) break;
-    coarser = std::move(next);
-    coarser_setup = std::move(next_setup);
+    mesh = std::move(next);
   }
   if (interrupted()) return {};
-  Solver solver(setup, assembler, newton, time, tolerance);
-  if (!state.empty()) state = refine(*coarser, state, solver, pressure, interrupted, report);
-  if (state.empty()) state = climb(setup, solver, pressure, interrupted, report);
-  setup.load = 1;
+  Solver solver(loading, equations, newton, time, tolerance);
+  if (!state.empty())
+    state = refine(coarser, mesh->equations(), state, solver, pressure, interrupted, report);
+  if (state.empty()) state = climb(loading, solver, pressure, interrupted, report);
+  loading.load = 1;
   return state;
 }
 
-}  // namespace tunica::axisym
+}  // namespace tunica::coupled

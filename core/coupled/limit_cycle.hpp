@@ -4,9 +4,9 @@
 #include <functional>
 #include <vector>
 
-#include "axisym/simulation.hpp"
+#include "core/coupled/simulation.hpp"
 
-namespace tunica::axisym {
+namespace tunica::coupled {
 
 struct LimitCycleReport {
   int periods = 0;  ///< computed
@@ -29,4 +29,4 @@ struct LimitCycle {
 LimitCycle limit_cycle(Simulation& simulation, std::vector<double> guess, double period, double tolerance,
                        const std::function<bool()>& interrupted, LimitCycleReport& report, int most = 40);
 
-}  // namespace tunica::axisym
+}  // namespace tunica::coupled

@@ -4,10 +4,10 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "axisym/newton.hpp"
+#include "core/coupled/newton.hpp"
 #include "core/time/step_control.hpp"
 
-namespace tunica::axisym {
+namespace tunica::coupled {
 
 struct SimulationOptions {
   time::Method method = time::Method::bdf2;
@@ -26,10 +26,11 @@ struct SimulationOptions {
   long milestone = 50;
 };
 
-/// Computes a problem step by step.
+/// Computes a vessel step by step.
 class Simulation {
  public:
-  Simulation(const Problem& problem, const SimulationOptions& options);
+  /// The equations must outlive it.
+  Simulation(const Equations& equations, const SimulationOptions& options);
 
   /// Begins at `time` from a state and its rates; without rates they are zero, and the state is made to agree
   /// with that. What follows depends on nothing that came before but the sizes of the fields.
@@ -48,8 +49,8 @@ class Simulation {
   /// True right after a step that ends at a milestone: the place for a checkpoint.
   bool at_milestone() const;
 
-  const Assembler& assembler() const { return assembler_; }
-  const Layout& layout() const { return assembler_.layout(); }
+  const Equations& equations() const { return equations_; }
+  const Layout& layout() const { return equations_.layout(); }
   Newton& newton() { return newton_; }
   double factor_entries() const { return newton_.factor_entries(); }
   const NewtonCounts& newton_counts() const { return newton_.counts(); }
@@ -64,9 +65,8 @@ class Simulation {
   double error_norm(std::span<const double> stage_value);
   [[noreturn]] void give_up(const NewtonReport& report) const;
 
-  const Problem& problem_;
+  const Equations& equations_;
   SimulationOptions options_;
-  Assembler assembler_;
   Newton newton_;
   time::Scheme scheme_;
   time::StepControl control_;
@@ -77,4 +77,4 @@ class Simulation {
   double least_jacobian_ = 1;
 };
 
-}  // namespace tunica::axisym
+}  // namespace tunica::coupled

@@ -2,13 +2,14 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "axisym/assembler.hpp"
+#include "core/coupled/equations.hpp"
 
-namespace tunica::axisym {
+namespace tunica::coupled {
 
 struct NewtonOptions {
   /// Error allowed in each field (displacement, velocity, pressure), relative to the greatest value of that
@@ -46,7 +47,8 @@ struct NewtonCounts {
 /// monotonicity test (Deuflhard, Newton Methods for Nonlinear Problems, Springer 2004).
 class Newton {
  public:
-  explicit Newton(const Assembler& assembler);
+  /// The equations must outlive it.
+  explicit Newton(const Equations& equations);
 
   /// Solves for the unknowns in `y`, from the values that it holds. Prescribed entries and the wall's
   /// velocities are put in place. When it does not converge, y is of no use.
@@ -65,14 +67,14 @@ class Newton {
 
   const NewtonCounts& counts() const { return counts_; }
   /// Entries of the latest factorisation.
-  double factor_entries() const { return solver_.entries(); }
+  double factor_entries() const { return solver_->entries(); }
 
  private:
   enum class Outcome { converged, slow, failed };
 
   bool evaluate(const Stage& stage, std::span<double> y);
   bool factorise(const Stage& stage, std::span<double> y);
-  /// correction = -(derivative)^-1 residual
+  /// correction = -(derivative)^-1 residual; not finite where no solution was found.
   void correct(std::vector<double>& correction);
   void add(std::span<double> y, double factor, const std::vector<double>& correction) const;
   Sizes sizes_with(std::span<const double> y) const;
@@ -90,13 +92,12 @@ class Newton {
   bool damped_step(const Stage& stage, std::span<double> y, const NewtonOptions& options,
                    NewtonReport& report, bool& converged);
 
-  const Assembler& assembler_;
-  SparseMatrix matrix_;
-  DirectSolver solver_;
+  const Equations& equations_;
+  std::unique_ptr<TangentSolver> solver_;
   bool factorised_ = false;
   std::vector<double> residual_, weights_;
   Sizes sizes_;
   NewtonCounts counts_;
 };
 
-}  // namespace tunica::axisym
+}  // namespace tunica::coupled

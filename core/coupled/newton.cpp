@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "axisym/newton.hpp"
+#include "core/coupled/newton.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-namespace tunica::axisym {
+namespace tunica::coupled {
 
 namespace {
 
@@ -14,43 +14,42 @@ constexpr const char* singular = "the derivative is singular";
 
 }  // namespace
 
-Newton::Newton(const Assembler& assembler)
-    : assembler_(assembler),
-      matrix_(assembler.pattern()),
-      residual_(assembler.layout().unknowns()),
-      weights_(assembler.layout().unknowns()) {}
+Newton::Newton(const Equations& equations)
+    : equations_(equations),
+      solver_(equations.tangent_solver()),
+      residual_(equations.layout().unknowns()),
+      weights_(equations.layout().unknowns()) {}
 
 void Newton::forget() {
   factorised_ = false;
-  solver_.forget();
+  solver_->forget();
 }
 
 bool Newton::evaluate(const Stage& stage, std::span<double> y) {
-  assembler_.complete(stage, y);
-  return assembler_.residual(stage, y, residual_);
+  equations_.complete(stage, y);
+  return equations_.residual(stage, y, residual_);
 }
 
 bool Newton::factorise(const Stage& stage, std::span<double> y) {
-  assembler_.tangent(stage, y, matrix_);
   ++counts_.factorisations;
-  factorised_ = solver_.factorise(matrix_);
+  factorised_ = solver_->factorise(stage, y);
   return factorised_;
 }
 
 void Newton::correct(std::vector<double>& correction) {
   ++counts_.solves;
   correction.assign(residual_.begin(), residual_.end());
-  solver_.solve(correction);
+  if (!solver_->solve(correction)) std::fill(correction.begin(), correction.end(), NAN);
   for (double& entry : correction) entry = -entry;
 }
 
 void Newton::add(std::span<double> y, double factor, const std::vector<double>& correction) const {
-  const Layout& layout = assembler_.layout();
+  const Layout& layout = equations_.layout();
   for (int u = 0; u < layout.unknowns(); ++u) y[layout.entry(u)] += factor * correction[u];
 }
 
 Newton::Sizes Newton::sizes_with(std::span<const double> y) const {
-  const Layout& layout = assembler_.layout();
+  const Layout& layout = equations_.layout();
   Sizes sizes = sizes_;
   for (std::size_t e = 0; e < layout.size(); ++e) {
     double& size = e < layout.velocity_begin()   ? sizes.displacement
@@ -62,7 +61,7 @@ Newton::Sizes Newton::sizes_with(std::span<const double> y) const {
 }
 
 void Newton::weigh(std::span<const double> y) {
-  const Layout& layout = assembler_.layout();
+  const Layout& layout = equations_.layout();
   const Sizes sizes = sizes_with(y);
   const auto inverse = [](double size) { return size > 0 ? 1 / size : 0.0; };
   const double d = inverse(sizes.displacement), v = inverse(sizes.velocity), p = inverse(sizes.pressure);
@@ -73,7 +72,7 @@ void Newton::weigh(std::span<const double> y) {
 }
 
 Newton::Norms Newton::norms(const std::vector<double>& correction) const {
-  const Layout& layout = assembler_.layout();
+  const Layout& layout = equations_.layout();
   Norms greatest{};
   for (std::size_t u = 0; u < correction.size(); ++u) {
     const std::size_t e = layout.entry(static_cast<int>(u));
@@ -91,13 +90,13 @@ double Newton::norm(const Norms& norms) {
 
 std::size_t Newton::greatest(const std::vector<double>& correction) const {
   int found = 0;
-  for (int u = 1; u < assembler_.layout().unknowns(); ++u)
+  for (int u = 1; u < equations_.layout().unknowns(); ++u)
     if (std::abs(correction[u]) * weights_[u] > std::abs(correction[found]) * weights_[found]) found = u;
-  return assembler_.layout().entry(found);
+  return equations_.layout().entry(found);
 }
 
 const char* Newton::flaw() const {
-  return assembler_.least_jacobian().value > 0 ? "makes forces that are not finite"
+  return equations_.least_jacobian().value > 0 ? "makes forces that are not finite"
                                                : "turns cells inside out";
 }
 
@@ -190,7 +189,7 @@ Newton::Outcome Newton::iterate(const Stage& stage, std::span<double> y, const N
                         (rate < 1 && fields[f] * rate / (1 - rate) <= options.tolerance));
     }
     if (small) {
-      assembler_.complete(stage, y);
+      equations_.complete(stage, y);
       return Outcome::converged;
     }
     if (before > 0 && size > options.tolerance) {
@@ -233,7 +232,7 @@ bool Newton::damped_step(const Stage& stage, std::span<double> y, const NewtonOp
     if (!std::isfinite(size) || !std::isfinite(next)) continue;
     if (factor == 1 && next <= options.tolerance && next <= 0.5 * size) {
       add(y, 1.0, simplified);
-      assembler_.complete(stage, y);
+      equations_.complete(stage, y);
       converged = true;
       return true;
     }
@@ -244,4 +243,4 @@ bool Newton::damped_step(const Stage& stage, std::span<double> y, const NewtonOp
   return false;
 }
 
-}  // namespace tunica::axisym
+}  // namespace tunica::coupled

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "axisym/limit_cycle.hpp"
+#include "core/coupled/limit_cycle.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 
 #include "core/error.hpp"
 
-namespace tunica::axisym {
+namespace tunica::coupled {
 
 namespace {
 
@@ -29,13 +29,13 @@ class Range {
   /// velocity of the blood) and charge of the outlet's compliance. All else follows within a period. They
   /// are reciprocals of the greatest range in a period, of that field and of the pressure at the outlet, or
   /// of a thousandth of the size of what hardly changes.
-  Eigen::VectorXd weights(const Assembler& assembler) const {
-    const Layout& layout = assembler.layout();
-    const bool moves = assembler.problem().mesh.has(Part::wall);
+  Eigen::VectorXd weights(const Equations& equations) const {
+    const Layout& layout = equations.layout();
+    const bool moves = equations.has_wall();
     std::vector<std::size_t> field;
     for (int u = 0; u < layout.unknowns(); ++u) {
       const std::size_t e = layout.entry(u);
-      const bool is_wall = e < layout.velocity_begin() && layout.on_wall(static_cast<int>(e / 2));
+      const bool is_wall = e < layout.velocity_begin() && layout.on_wall(layout.node_of(e));
       const bool is_velocity = e >= layout.velocity_begin() && e < layout.pressure_begin();
       if (moves ? is_wall : is_velocity) field.push_back(e);
     }
@@ -93,7 +93,7 @@ LimitCycle limit_cycle(Simulation& simulation, std::vector<double> guess, double
     }
     rates = simulation.rates();
     const Vector image = Eigen::Map<const Vector>(simulation.state().data(), size);
-    const Vector weights = range.weights(simulation.assembler());
+    const Vector weights = range.weights(simulation.equations());
     ++report.periods;
     images.push_back(image);
     differences.emplace_back(image - x);
@@ -127,4 +127,4 @@ LimitCycle limit_cycle(Simulation& simulation, std::vector<double> guess, double
   }
 }
 
-}  // namespace tunica::axisym
+}  // namespace tunica::coupled

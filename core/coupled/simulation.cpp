@@ -1,52 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "axisym/simulation.hpp"
+#include "core/coupled/simulation.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
-#include "axisym/failure.hpp"
+#include "core/coupled/failure.hpp"
 #include "core/error.hpp"
 #include "core/observables/checkpoint.hpp"
 
-namespace tunica::axisym {
+namespace tunica::coupled {
 
-namespace {
-
-/// Shares of the nodes in the volume of the wall, or in that of the blood where no wall is computed.
-std::vector<double> volume_shares(const Assembler& assembler) {
-  const Mesh& mesh = assembler.problem().mesh;
-  std::vector<double> shares(mesh.points.size(), 0.0);
-  const int count = counts(mesh.shape, assembler.problem().discretisation.element).displacement;
-  const auto add = [&](const auto& tables) {
-    for (const auto& table : tables)
-      for (const auto& point : table.points)
-        for (int k = 0; k < count; ++k)
-          shares[mesh.cells[table.cell].nodes[k]] += point.weight * point.displacement.lift[0][k];
-  };
-  if (mesh.has(Part::wall))
-    add(assembler.tables().wall);
-  else
-    add(assembler.tables().blood);
-  const double whole = std::accumulate(shares.begin(), shares.end(), 0.0);
-  for (double& share : shares) share /= whole;
-  return shares;
-}
-
-}  // namespace
-
-Simulation::Simulation(const Problem& problem, const SimulationOptions& options)
-    : problem_(problem),
+Simulation::Simulation(const Equations& equations, const SimulationOptions& options)
+    : equations_(equations),
       options_(options),
-      assembler_(problem),
-      newton_(assembler_),
+      newton_(equations),
       scheme_(options.method, options.spectral_radius),
       control_(options.steps),
-      candidate_(assembler_.layout().size()),
-      error_(assembler_.layout().size()),
-      shares_(volume_shares(assembler_)) {
+      candidate_(equations.layout().size()),
+      error_(equations.layout().size()),
+      shares_(equations.volume_shares()) {
   // What is still a hundredth of its size to come need not be computed to its own last digits.
   constexpr double small = 0.01;
   const auto& s = options.scales;
@@ -55,7 +29,7 @@ Simulation::Simulation(const Problem& problem, const SimulationOptions& options)
 
 void Simulation::start(double time, std::vector<double> state, std::vector<double> rates) {
   if (rates.empty()) {
-    assembler_.complete({time, 0, {}}, state);
+    equations_.complete({time, 0, {}}, state);
     rates.assign(state.size(), 0.0);
   }
   scheme_.start(time, std::move(state), std::move(rates));
@@ -74,16 +48,16 @@ bool Simulation::jumps_at(double time) const {
 
 double Simulation::error_norm(std::span<const double> stage_value) {
   scheme_.error(stage_value, error_);
-  const Layout& layout = assembler_.layout();
+  const Layout& layout = equations_.layout();
   const auto& sizes = newton_.sizes();
   const auto& scales = options_.scales;
-  const bool moves = problem_.mesh.has(Part::wall);
+  const bool moves = equations_.has_wall();
   const double size =
       moves ? std::max(sizes.displacement, scales.displacement) : std::max(sizes.velocity, scales.velocity);
   double sum = 0, greatest = 0;
   for (std::size_t n = 0; n < shares_.size(); ++n) {
     const int node = static_cast<int>(n);
-    for (int c = 0; c < 2; ++c) {
+    for (int c = 0; c < layout.components(); ++c) {
       const std::size_t entry = moves ? layout.displacement(node, c) : layout.velocity(node, c);
       const double square = shares_[n] * error_[entry] * error_[entry];
       sum += square;
@@ -134,7 +108,7 @@ void Simulation::advance(double stop) {
   }
   step_begin_ = time();
   scheme_.accept(candidate_);
-  least_jacobian_ = std::min(least_jacobian_, assembler_.least_jacobian().value);
+  least_jacobian_ = std::min(least_jacobian_, equations_.least_jacobian().value);
   if (at_milestone()) newton_.forget();
 }
 
@@ -143,9 +117,9 @@ void Simulation::give_up(const NewtonReport& report) const {
   if (report.converged)
     throw SolverFailure(
         fmt::format("even the smallest time step, {:.2g} s, has too large an error, in the {}", step,
-                    place_of(assembler_, worst_)));
+                    place_of(equations_, worst_)));
   throw SolverFailure(
-      fmt::format("the smallest time step, {:.2g} s, was not solved: {}", step, explain(assembler_, report)));
+      fmt::format("the smallest time step, {:.2g} s, was not solved: {}", step, explain(equations_, report)));
 }
 
 namespace {
@@ -224,4 +198,4 @@ void Simulation::restore(const nlohmann::json& saved) {
   newton_.forget();
 }
 
-}  // namespace tunica::axisym
+}  // namespace tunica::coupled

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "core/coupled/conditions.hpp"
+#include "core/coupled/newton.hpp"
+#include "core/inlet.hpp"
+#include "core/radial/ring.hpp"
+#include "core/scene/scene.hpp"
+
+namespace tunica::coupled {
+
+/// What loads the vessel of a scene, and the sizes of what is to come of it. Stays where it was made: the
+/// functions of the conditions refer to it.
+struct Loading {
+  Inlet inlet;
+  double inlet_scale = 0;  ///< mean flow (cm3/s) or pressure (dyn/cm2)
+  /// Factor on everything that loads the vessel, for static states that are approached from rest.
+  double load = 1;
+  /// Ring of the wall at mid-length, none when there is no wall.
+  std::unique_ptr<const radial::RingModel> ring;
+  double lumen_radius = 0;       ///< at mid-length, cm
+  double wall_density = 0;       ///< g/cm3
+  double expected_pressure = 0;  ///< greatest in the lumen, dyn/cm2, estimated from the outlet's resistance
+  Newton::Sizes expected;        ///< sizes of the fields to come
+  /// Pressure in the lumen at mid-length in the steady state under the full loads of a time, as far as it is
+  /// known beforehand, dyn/cm2.
+  std::function<double(double time)> steady_pressure;
+
+  Loading() = default;
+  Loading(const Loading&) = delete;
+  Loading& operator=(const Loading&) = delete;
+  double inlet_value(double time) const { return load * inlet_scale * inlet.shape_at(time); }
+};
+
+/// Reads the inlet. A static state has no ramp.
+void set_source(const Scene& scene, Loading& loading);
+
+/// Blood at rest under a given pressure does nothing but press on the wall: it need not be computed.
+bool needs_blood(const Scene& scene, const Loading& loading);
+
+Element element_of(const Scene& scene);
+
+/// The outlet of a scene. Throws InvalidInput for an RCR model without distal resistance.
+OutletCondition outlet_of(const Scene& scene, const Loading& loading);
+
+/// Sets pressures, velocities and displacements to be expected, once the lumen's radius is known. `ring` of
+/// the wall at mid-length is made anew for the curve; none without a wall.
+void estimate_sizes(const Scene& scene, std::unique_ptr<const radial::RingModel> ring, Loading& loading);
+
+/// Physics, discretisation, tether and outlet of a scene.
+template <int dimension>
+void set_conditions(const Scene& scene, const Loading& loading, Conditions<dimension>& conditions);
+
+/// Sets loading.steady_pressure. Keeps a reference to the conditions.
+template <int dimension>
+void set_steady_pressure(const Conditions<dimension>& conditions, bool with_blood, Loading& loading) {
+  const Loading* const here = &loading;
+  loading.steady_pressure = [&conditions, here, with_blood](double time) {
+    if (!with_blood) return conditions.lumen_pressure(time);
+    if (conditions.inlet.kind == InletKind::pressure) return conditions.inlet.value(time);
+    const OutletCondition& outlet = conditions.outlet;
+    return outlet.pressure(time) + (outlet.resistance + outlet.proximal_resistance) * here->inlet_value(time);
+  };
+}
+
+}  // namespace tunica::coupled
