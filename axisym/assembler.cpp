@@ -105,7 +105,7 @@ void Assembler::add_sides(const Stage& stage, std::span<const double> y, std::sp
     for (const auto& at : side.points)
       kernel::add_side_residual(BoundaryTerms{problem_, side.boundary}, at, nodes, result);
     add_rows(result.momentum, map_.sides()[s].numbers.momentum, residual);
-    for (const auto& row : coupled::scalar_rows(layout_, problem_.outlet, side.boundary))
+    for (const auto& row : coupled::scalar_rows(layout_, problem_, side.boundary))
       residual[layout_.unknown(row.entry)] += row.factor * result.flow;
   }
 }
@@ -193,7 +193,7 @@ void Assembler::tangent(const Stage& stage, std::span<const double> y, SparseMat
     const SideNumbers& n = map_.sides()[s].numbers;
     scatter(t, map_.sides()[s], c, values);
     const auto pressure = coupled::pressure_entry(layout_, side.boundary);
-    const auto rows = coupled::scalar_rows(layout_, problem_.outlet, side.boundary);
+    const auto rows = coupled::scalar_rows(layout_, problem_, side.boundary);
     for (int b = 0; b < 2; ++b)
       for (int k = 0; k < side.count; ++k) {
         if (pressure && n.momentum[b][k] >= 0)

@@ -46,7 +46,7 @@ void MatrixMap::build_pattern(const Tables& tables) {
       for (int k = 0; k < tables.sides[s].count; ++k) {
         if (const auto p = coupled::pressure_entry(layout_, boundary))
           note(n.momentum[c][k], layout_.unknown(*p));
-        for (const auto& row : coupled::scalar_rows(layout_, problem_.outlet, boundary))
+        for (const auto& row : coupled::scalar_rows(layout_, problem_, boundary))
           for (const int column : {n.velocity[c][k], n.displacement[c][k]})
             note(layout_.unknown(row.entry), column);
       }

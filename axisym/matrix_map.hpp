@@ -50,7 +50,7 @@ class MatrixMap {
 template <class Tangent, class Numbers>
 void scatter(const Tangent& tangent, const Targets<Numbers>& targets, double coefficient, double* values) {
   const int* place = targets.places.data();
-  coupled::visit_entries(tangent, targets.numbers, coefficient, [&](double entry) {
+  coupled::visit_entries(tangent, targets.numbers, coefficient, [&](int, int, double entry) {
     if (*place >= 0) values[*place] += entry;
     ++place;
   });

@@ -11,6 +11,7 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/tunicaConfigVersion.cmake
 install(FILES ${PROJECT_BINARY_DIR}/tunicaConfig.cmake ${PROJECT_BINARY_DIR}/tunicaConfigVersion.cmake
               ${CMAKE_CURRENT_LIST_DIR}/FindUDUNITS2.cmake
               ${CMAKE_CURRENT_LIST_DIR}/FindKLU.cmake
+              ${CMAKE_CURRENT_LIST_DIR}/FindPETSc.cmake
         DESTINATION ${package_folder})
 install(EXPORT tunicaTargets NAMESPACE tunica:: DESTINATION ${package_folder})
 

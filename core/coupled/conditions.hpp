@@ -77,6 +77,9 @@ template <int dimension>
 struct Conditions {
   using Point = std::array<double, dimension>;
   Discretisation discretisation;
+  /// How often what is meshed is in the whole vessel, whose flows are those of the inlet and the outlet: 2 or
+  /// 4 for a half or a quarter of it.
+  double copies = 1;
   physics::Blood blood{1.0, 0.035};
   std::vector<wall::Law<double>> laws;  ///< by layer
   double wall_density = 0;

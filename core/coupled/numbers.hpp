@@ -126,17 +126,19 @@ void visit_places(const Numbers<Frame, Width>& numbers, const Visit& visit) {
   });
 }
 
-/// Visits the entries of a tangent: visit(entry). The columns of a velocity that is the rate of a
-/// displacement are those of the displacement, times `coefficient` = d(rate)/d(displacement).
+/// Visits the entries of a tangent: visit(row, column, entry). The columns of a velocity that is the rate of
+/// a displacement are those of the displacement, times `coefficient` = d(rate)/d(displacement).
 template <class Tangent, class Frame, int Width, class Visit>
 void visit_entries(const Tangent& tangent, const Numbers<Frame, Width>& numbers, double coefficient,
                    const Visit& visit) {
-  visit_blocks(numbers, tangent, [&](const auto&, const auto&, bool by_velocity, const auto& block) {
-    double factor[Width];
-    for (int l = 0; l < Width; ++l) factor[l] = by_velocity && numbers.adheres[l] ? coefficient : 1.0;
-    for (int k = 0; k < Width; ++k)
-      for (int l = 0; l < Width; ++l) visit(factor[l] * block.entry[k][l]);
-  });
+  visit_blocks(numbers, tangent,
+               [&](const auto& rows, const auto& columns, bool by_velocity, const auto& block) {
+                 double factor[Width];
+                 for (int l = 0; l < Width; ++l)
+                   factor[l] = by_velocity && numbers.adheres[l] ? coefficient : 1.0;
+                 for (int k = 0; k < Width; ++k)
+                   for (int l = 0; l < Width; ++l) visit(rows[k], columns[l], factor[l] * block.entry[k][l]);
+               });
 }
 
 /// residual += nodal values of a test field, [component][function] of both.

@@ -9,11 +9,13 @@ std::optional<std::size_t> pressure_entry(const Layout& layout, Boundary boundar
   return std::nullopt;
 }
 
-std::vector<ScalarRow> scalar_rows(const Layout& layout, const OutletCondition& outlet, Boundary boundary) {
-  if (boundary == Boundary::inlet && layout.inlet_pressure) return {{*layout.inlet_pressure, -1.0}};
+std::vector<ScalarRow> scalar_rows(const Layout& layout, const OutletCondition& outlet, double copies,
+                                   Boundary boundary) {
+  if (boundary == Boundary::inlet && layout.inlet_pressure) return {{*layout.inlet_pressure, -copies}};
   if (boundary != Boundary::outlet || !layout.outlet_pressure) return {};
-  if (!layout.windkessel_pressure) return {{*layout.outlet_pressure, -outlet.resistance}};
-  return {{*layout.outlet_pressure, -outlet.proximal_resistance}, {*layout.windkessel_pressure, -1.0}};
+  if (!layout.windkessel_pressure) return {{*layout.outlet_pressure, -copies * outlet.resistance}};
+  return {{*layout.outlet_pressure, -copies * outlet.proximal_resistance},
+          {*layout.windkessel_pressure, -copies}};
 }
 
 void add_scalars(const InletCondition& inlet, const OutletCondition& outlet, const Layout& layout,

@@ -61,9 +61,15 @@ std::optional<std::size_t> pressure_entry(const Layout& layout, Boundary boundar
 /// Scalar equations that the flow out through a boundary enters.
 struct ScalarRow {
   std::size_t entry;  ///< of y
-  double factor;      ///< on the flow out
+  double factor;      ///< on the flow out of what is meshed
 };
-std::vector<ScalarRow> scalar_rows(const Layout& layout, const OutletCondition& outlet, Boundary boundary);
+std::vector<ScalarRow> scalar_rows(const Layout& layout, const OutletCondition& outlet, double copies,
+                                   Boundary boundary);
+template <int dimension>
+std::vector<ScalarRow> scalar_rows(const Layout& layout, const Conditions<dimension>& conditions,
+                                   Boundary boundary) {
+  return scalar_rows(layout, conditions.outlet, conditions.copies, boundary);
+}
 
 /// Pressure on a boundary of the blood, or on the inner surface of a wall alone.
 template <int dimension>

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/coupled/equations.hpp"
+#include "full3d/layout.hpp"
+
+namespace tunica::full3d {
+
+using coupled::LeastJacobian;
+
+/// A stage with what the boundaries carry at its time: pressures by Boundary, dyn/cm2.
+struct LoadedStage {
+  coupled::Stage stage;
+  std::array<double, coupled::boundaries> pressure{};
+};
+
+/// A place in the matrix.
+struct MatrixPlace {
+  int row, column;
+};
+
+/// Residual and derivative of some of a problem's cells and of the faces that belong to them. Rows and
+/// columns are numbered as the layout's unknowns.
+class CellWork {
+ public:
+  virtual ~CellWork() = default;
+  /// Adds to `residual` (all unknowns). Cells that are turned inside out add nothing of use.
+  virtual LeastJacobian residual(const LoadedStage& stage, std::span<const double> y,
+                                 std::span<double> residual) const = 0;
+  /// The places of the derivative's entries; places may repeat.
+  virtual std::vector<MatrixPlace> pattern() const = 0;
+  /// The entries, in the order of pattern().
+  virtual void tangent(const LoadedStage& stage, std::span<const double> y,
+                       std::span<double> values) const = 0;
+  /// Adds the loads of Conditions::loads at a time, with their sign in the residual.
+  virtual void add_loads(double time, std::span<double> residual) const = 0;
+  /// Flow out through a boundary of the blood, cm3/s.
+  virtual double flow(const coupled::Stage& stage, std::span<const double> y, Boundary boundary) const = 0;
+  /// Adds the volumes (cm3) of the nodes of a part to `volumes`, by node.
+  virtual void add_volumes(Part part, std::span<double> volumes) const = 0;
+};
+
+/// Work on the cells of these indices, on so many threads; results do not depend on their number. Problem
+/// and layout must outlive it.
+std::unique_ptr<CellWork> cell_work(const Problem& problem, const Layout& layout,
+                                    const std::vector<int>& cells, int threads);
+
+/// Cost of a cell's derivative, relative to that of a blood cell, to share cells out by.
+double relative_cost(const Problem& problem, int cell);
+
+}  // namespace tunica::full3d

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <petscksp.h>
+
+#include <string>
+#include <utility>
+
+namespace tunica::full3d {
+
+/// Throws std::runtime_error naming the call of PETSc that failed and its reason.
+void check(PetscErrorCode code, const char* call);
+
+/// Owns an object of PETSc.
+template <class Object, PetscErrorCode (*destroy)(Object*)>
+class Owned {
+ public:
+  Owned() = default;
+  ~Owned() {
+    if (object_) destroy(&object_);
+  }
+  Owned(Owned&& other) noexcept : object_(std::exchange(other.object_, nullptr)) {}
+  Owned& operator=(Owned&& other) noexcept {
+    std::swap(object_, other.object_);
+    return *this;
+  }
+  Object get() const { return object_; }
+  /// To be filled by a call that creates it; nothing must be owned yet.
+  Object* put() { return &object_; }
+  explicit operator bool() const { return object_ != nullptr; }
+
+ private:
+  Object object_ = nullptr;
+};
+
+using OwnedMatrix = Owned<Mat, MatDestroy>;
+using OwnedVector = Owned<Vec, VecDestroy>;
+using OwnedSolver = Owned<KSP, KSPDestroy>;
+using OwnedIndices = Owned<IS, ISDestroy>;
+using OwnedPartitioning = Owned<MatPartitioning, MatPartitioningDestroy>;
+
+/// PETSc and MPI for as long as it lives: one in a program. PETSc's own options come from the environment
+/// (PETSC_OPTIONS) and from what the program gives.
+class PetscSession {
+ public:
+  PetscSession();
+  ~PetscSession();
+  PetscSession(const PetscSession&) = delete;
+  PetscSession& operator=(const PetscSession&) = delete;
+};
+
+}  // namespace tunica::full3d

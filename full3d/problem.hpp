@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+
+#include "core/coupled/conditions.hpp"
+#include "full3d/mesh.hpp"
+
+namespace tunica::full3d {
+
+using coupled::Discretisation;
+using coupled::Element;
+using coupled::InletKind;
+using coupled::OutletKind;
+using Prescribed = coupled::Prescribed<3>;
+
+/// Circumference and axis of the vessel at a place of the unloaded wall, unit vectors.
+using WallDirections = std::function<wall::MaterialAxes(const Point&)>;
+
+/// Everything that is computed with: a vessel in space, or its blood or its wall alone.
+struct Problem : coupled::Conditions<3> {
+  Mesh mesh;
+  WallDirections directions;
+};
+
+}  // namespace tunica::full3d

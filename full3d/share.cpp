@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "full3d/share.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/coupled/openings.hpp"
+#include "core/threads.hpp"
+#include "full3d/partition.hpp"
+#include "full3d/solver_options.hpp"
+
+namespace tunica::full3d {
+
+Share::Share(const Problem& problem, const Layout& layout, const Ranks& ranks, SolverChoice choice)
+    : problem_(problem), layout_(layout), ranks_(ranks), choice_(std::move(choice)) {
+  const std::vector<int> owner = partition(problem, ranks);
+  std::vector<int> mine;
+  for (int cell = 0; cell < static_cast<int>(owner.size()); ++cell)
+    if (owner[cell] == ranks.rank()) mine.push_back(cell);
+  work_ = cell_work(problem, layout, mine, std::max(1, available_threads() / ranks.on_machine()));
+  share_rows(owner);
+}
+
+Share::~Share() = default;
+
+void Share::share_rows(const std::vector<int>& owner_of_cell) {
+  const Mesh& mesh = problem_.mesh;
+  std::vector<int> owner(mesh.points.size(), ranks_.size() - 1);
+  for (int cell = 0; cell < static_cast<int>(mesh.cells.size()); ++cell)
+    for (const int node : mesh.cells[cell].nodes)
+      if (node >= 0) owner[node] = std::min(owner[node], owner_of_cell[cell]);
+  counts_.assign(ranks_.size(), 0);
+  std::vector<int> owner_of_unknown(layout_.unknowns());
+  for (int u = 0; u < layout_.unknowns(); ++u) {
+    const std::size_t entry = layout_.entry(u);
+    owner_of_unknown[u] = ranks_.size() - 1;
+    if (entry < layout_.pressure_begin()) owner_of_unknown[u] = owner[layout_.node_of(entry)];
+  }
+  // The node of a pressure is found by going through the nodes: node_of would search for each.
+  for (int node = 0; node < layout_.nodes(); ++node)
+    if (layout_.has_pressure(node)) {
+      const int u = layout_.unknown(layout_.pressure(node));
+      if (u >= 0) owner_of_unknown[u] = owner[node];
+    }
+  for (const int rank : owner_of_unknown) ++counts_[rank];
+  offsets_.assign(ranks_.size(), 0);
+  for (int r = 1; r < ranks_.size(); ++r) offsets_[r] = offsets_[r - 1] + counts_[r - 1];
+  std::vector<int> next = offsets_;
+  petsc_index_.resize(layout_.unknowns());
+  for (int u = 0; u < layout_.unknowns(); ++u) petsc_index_[u] = next[owner_of_unknown[u]]++;
+}
+
+LeastJacobian Share::residual(const LoadedStage& stage, std::span<const double> y,
+                              std::span<double> residual) {
+  std::fill(residual.begin(), residual.end(), 0.0);
+  LeastJacobian least = work_->residual(stage, y, residual);
+  if (problem_.loads.blood_force || problem_.loads.wall_force || problem_.loads.mesh_force ||
+      problem_.loads.blood_volume || problem_.loads.traction)
+    work_->add_loads(stage.stage.time, residual);
+  ranks_.sum_to_leader(residual);
+  if (ranks_.size() == 1) return least;
+  struct {
+    double value;
+    int cell;
+  } mine{std::isnan(least.value) ? -std::numeric_limits<double>::infinity() : least.value, least.cell},
+      found{};
+  MPI_Allreduce(&mine, &found, 1, MPI_DOUBLE_INT, MPI_MINLOC, ranks_.communicator());
+  return {found.value, found.cell};
+}
+
+void Share::make_matrix() {
+  std::vector<MatrixPlace> places = work_->pattern();
+  own_entries_ = places.size();
+  if (ranks_.leads())
+    for (const auto& entry : coupled::scalar_tangent(problem_.outlet, layout_, 1))
+      places.push_back({entry.row, entry.column});
+  std::vector<PetscInt> rows, columns;
+  rows.reserve(places.size());
+  columns.reserve(places.size());
+  for (const MatrixPlace& place : places) {
+    rows.push_back(petsc_index_[place.row]);
+    columns.push_back(petsc_index_[place.column]);
+  }
+  values_.resize(places.size());
+  places = {};
+  const PetscInt local = counts_[ranks_.rank()], all = layout_.unknowns();
+  check(MatCreate(ranks_.communicator(), matrix_.put()), "MatCreate");
+  check(MatSetSizes(matrix_.get(), local, local, all, all), "MatSetSizes");
+  check(MatSetType(matrix_.get(), MATAIJ), "MatSetType");
+  check(MatSetPreallocationCOO(matrix_.get(), static_cast<PetscCount>(rows.size()), rows.data(),
+                               columns.data()),
+        "MatSetPreallocationCOO");
+  check(MatCreateVecs(matrix_.get(), solution_.put(), right_.put()), "MatCreateVecs");
+}
+
+void Share::make_solver() {
+  insert_options(choice_);
+  check(KSPCreate(ranks_.communicator(), solver_.put()), "KSPCreate");
+  check(KSPSetOperators(solver_.get(), matrix_.get(), matrix_.get()), "KSPSetOperators");
+  check(KSPSetFromOptions(solver_.get()), "KSPSetFromOptions");
+}
+
+void Share::assemble(const LoadedStage& stage, std::span<const double> y) {
+  if (!matrix_) make_matrix();
+  work_->tangent(stage, y, std::span(values_).first(own_entries_));
+  if (ranks_.leads()) {
+    std::size_t next = own_entries_;
+    for (const auto& entry : coupled::scalar_tangent(problem_.outlet, layout_, stage.stage.coefficient))
+      values_[next++] = entry.value;
+  }
+  check(MatSetValuesCOO(matrix_.get(), values_.data(), INSERT_VALUES), "MatSetValuesCOO");
+}
+
+bool Share::factorise(const LoadedStage& stage, std::span<const double> y) {
+  assemble(stage, y);
+  if (!solver_) make_solver();
+  check(KSPSetUp(solver_.get()), "KSPSetUp");
+  PC pc = nullptr;
+  check(KSPGetPC(solver_.get(), &pc), "KSPGetPC");
+  PCFailedReason reason{};
+  check(PCGetFailedReason(pc, &reason), "PCGetFailedReason");
+  entries_ = factor_entries(pc);
+  return ranks_.all(reason == PC_NOERROR);
+}
+
+bool Share::solve(std::span<double> right_hand_side) {
+  const int own = counts_[ranks_.rank()];
+  std::vector<double> ordered;
+  if (ranks_.leads()) {
+    ordered.resize(right_hand_side.size());
+    for (std::size_t u = 0; u < right_hand_side.size(); ++u) ordered[petsc_index_[u]] = right_hand_side[u];
+  }
+  PetscScalar* local = nullptr;
+  check(VecGetArray(right_.get(), &local), "VecGetArray");
+  MPI_Scatterv(ordered.data(), counts_.data(), offsets_.data(), MPI_DOUBLE, local, own, MPI_DOUBLE, 0,
+               ranks_.communicator());
+  check(VecRestoreArray(right_.get(), &local), "VecRestoreArray");
+  check(KSPSolve(solver_.get(), right_.get(), solution_.get()), "KSPSolve");
+  KSPConvergedReason reason{};
+  check(KSPGetConvergedReason(solver_.get(), &reason), "KSPGetConvergedReason");
+  PetscInt iterations = 0;
+  check(KSPGetIterationNumber(solver_.get(), &iterations), "KSPGetIterationNumber");
+  iterations_ += iterations;
+  const PetscScalar* found = nullptr;
+  check(VecGetArrayRead(solution_.get(), &found), "VecGetArrayRead");
+  MPI_Gatherv(found, own, MPI_DOUBLE, ordered.data(), counts_.data(), offsets_.data(), MPI_DOUBLE, 0,
+              ranks_.communicator());
+  check(VecRestoreArrayRead(solution_.get(), &found), "VecRestoreArrayRead");
+  if (ranks_.leads())
+    for (std::size_t u = 0; u < right_hand_side.size(); ++u) right_hand_side[u] = ordered[petsc_index_[u]];
+  return reason > 0;
+}
+
+}  // namespace tunica::full3d
