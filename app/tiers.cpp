@@ -22,7 +22,7 @@ std::string names(const TierList& tiers) {
 
 }  // namespace
 
-TierList available_tiers() {
+TierList light_tiers() {
   TierList tiers;
   tiers.push_back(std::make_unique<lumped::LumpedTier>());
   tiers.push_back(std::make_unique<axisym::AxisymTier>());

@@ -7,8 +7,8 @@
 
 namespace tunica {
 
-/// The tiers that this program has, the cheapest first.
-TierList available_tiers();
+/// The tiers that need no MPI, the cheapest first.
+TierList light_tiers();
 
 /// The tier of that name or, for "auto", the cheapest one that suits the scene.
 /// Throws InvalidInput naming the tiers that there are.

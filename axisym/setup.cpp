@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "axisym/locate.hpp"
+#include "core/coupled/wall_strain.hpp"
 #include "core/error.hpp"
 #include "core/radial/compressible_ring.hpp"
 #include "core/radial/from_scene.hpp"
@@ -75,25 +76,10 @@ void set_inlet(const Scene& scene, Setup& setup) {
 
 /// Fibres that are not in balance between +beta and -beta twist the wall, which this frame cannot follow.
 void require_balance(const std::vector<wall::Law<double>>& laws) {
-  constexpr double rounding = 1e-9;
-  for (const auto& law : laws) {
-    const auto& families = wall::families(law);
-    for (const auto& family : families) {
-      // Along the circumference and along the axis a family is its own mirror image.
-      if (std::abs(std::sin(2 * family.angle)) < rounding) continue;
-      double balance = 0;
-      for (const auto& other : families)
-        if (std::abs(std::abs(other.angle) - std::abs(family.angle)) < rounding &&
-            other.activation_squared == family.activation_squared && other.stiffness == family.stiffness &&
-            other.stiffening == family.stiffening)
-          balance += std::copysign(other.weight, other.angle);
-      if (std::abs(balance) > rounding * family.weight)
-        throw InvalidInput(
-            "wall.families are not in balance between positive and negative angles, so that the artery "
-            "twists; "
-            "this tier has no swirl: give each family its mirror image of equal weight, or use a 3D tier");
-    }
-  }
+  if (std::all_of(laws.begin(), laws.end(), coupled::is_balanced)) return;
+  throw InvalidInput(
+      "wall.families are not in balance between positive and negative angles, so that the artery twists; "
+      "this tier has no swirl: give each family its mirror image of equal weight, or use --tier full3d");
 }
 
 /// The ring of the wall that a section cuts.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "axisym/wall_state.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "axisym/gather.hpp"
@@ -22,12 +21,6 @@ kernel::NodalVector<Frame, cell_width> nodal_velocity(const Assembler& assembler
   return coupled::nodal_velocity<Frame, cell_width>(assembler.layout(), nodes.displacement(), y);
 }
 
-void WallStrain::add(double factor, const WallStrain& other) {
-  for (int i = 0; i < 3; ++i) displacement[i] += factor * other.displacement[i];
-  gradient = gradient + factor * other.gradient;
-  pressure += factor * other.pressure;
-}
-
 WallCell::WallCell(const Assembler& assembler, const WallTable& table, std::span<const double> y)
     : problem_(assembler.problem()),
       table_(table),
@@ -46,17 +39,15 @@ WallStrain WallCell::at(const element::Local& local) const {
   if (pressure_) {
     const double basis[kernel::max_pressure_terms<Frame>] = {1, local[0], local[1]};
     strain.pressure = pressure_->at(basis);
+  } else {
+    strain.take_own_pressure(problem_.laws[table_.layer]);
   }
   return strain;
 }
 
 WallReader::WallReader(const Assembler& assembler) : assembler_(assembler) {
   tables_.assign(assembler.problem().mesh.cells.size(), nullptr);
-  mixed_.assign(assembler.problem().laws.size(), false);
-  for (const WallTable& table : assembler.tables().wall) {
-    tables_[table.cell] = &table;
-    mixed_[table.layer] = table.pressure_terms > 0;
-  }
+  for (const WallTable& table : assembler.tables().wall) tables_[table.cell] = &table;
 }
 
 WallCell WallReader::cell(int cell, std::span<const double> y) const {
@@ -71,10 +62,7 @@ WallStrain WallReader::mean(std::span<const Place> places, std::span<const doubl
 }
 
 Tensor<double> WallReader::cauchy(int layer, const WallStrain& strain, const wall::MaterialAxes& axes) const {
-  const wall::Law<double>& law = assembler_.problem().laws[layer];
-  return cauchy_stress(mixed_[layer] ? physics::mixed_wall_stress(law, strain.gradient, axes, strain.pressure)
-                                     : wall::piola(law, strain.gradient, axes),
-                       strain.gradient);
+  return coupled::cauchy(assembler_.problem().laws[layer], strain, axes);
 }
 
 wall::MaterialAxes WallReader::axes(std::span<const Place> places) const {
@@ -85,19 +73,6 @@ wall::MaterialAxes WallReader::axes(std::span<const Place> places) const {
   }
   const double length = std::hypot(sum[0], sum[2]);
   return {{0, 1, 0}, {sum[0] / length, 0, sum[2] / length}};
-}
-
-std::vector<int> distinct_families(const wall::Law<double>& law) {
-  const auto& families = wall::families(law);
-  std::vector<int> distinct;
-  for (int f = 0; f < static_cast<int>(families.size()); ++f) {
-    const bool known = std::any_of(distinct.begin(), distinct.end(), [&](int earlier) {
-      return std::abs(families[earlier].angle) == std::abs(families[f].angle) &&
-             families[earlier].activation_squared == families[f].activation_squared;
-    });
-    if (!known) distinct.push_back(f);
-  }
-  return distinct;
 }
 
 }  // namespace tunica::axisym

@@ -6,6 +6,7 @@
 
 #include "axisym/assembler.hpp"
 #include "axisym/locate.hpp"
+#include "core/coupled/wall_strain.hpp"
 
 namespace tunica::axisym {
 
@@ -16,14 +17,8 @@ kernel::NodalVector<Frame, cell_width> nodal_displacement(const Assembler& assem
 kernel::NodalVector<Frame, cell_width> nodal_velocity(const Assembler& assembler, int cell,
                                                       std::span<const double> y);
 
-/// What the stress of the wall is computed from.
-struct WallStrain {
-  Vector<double> displacement{};  ///< d, cm
-  Tensor<double> gradient{};      ///< dd/dX
-  double pressure = 0;            ///< of mixed tissue: the interpolated wall pressure, dyn/cm2
-
-  void add(double factor, const WallStrain& other);
-};
+using coupled::distinct_families;
+using coupled::WallStrain;
 
 /// The wall in one of its cells at a state. Keeps references to the table and the problem.
 class WallCell {
@@ -54,11 +49,6 @@ class WallReader {
  private:
   const Assembler& assembler_;
   std::vector<const WallTable*> tables_;  ///< by cell, null in blood
-  std::vector<bool> mixed_;               ///< by layer
 };
-
-/// Families of a law that do not act like an earlier one at every strain without swirl, as families of equal
-/// |angle| and threshold do.
-std::vector<int> distinct_families(const wall::Law<double>& law);
 
 }  // namespace tunica::axisym

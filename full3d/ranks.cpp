@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "full3d/ranks.hpp"
 
+#include <cstdlib>
+
 namespace tunica::full3d {
 
 Ranks::Ranks(MPI_Comm communicator) : communicator_(communicator) {
@@ -37,6 +39,11 @@ bool Ranks::all(bool value) const {
   int mine = value ? 1 : 0, least = 0;
   MPI_Allreduce(&mine, &least, 1, MPI_INT, MPI_MIN, communicator_);
   return least != 0;
+}
+
+void Ranks::abort() const {
+  MPI_Abort(communicator_, 3);
+  std::abort();
 }
 
 }  // namespace tunica::full3d

@@ -31,6 +31,8 @@ class Ranks {
   void sum_to_leader(std::span<double> values) const;
   /// On all ranks, the same to the last bit.
   bool all(bool value) const;
+  /// Ends the processes of all ranks, with an error.
+  [[noreturn]] void abort() const;
 
  private:
   MPI_Comm communicator_;

@@ -95,7 +95,7 @@ class LumpedRun final : public TierRun {
                          {"wall_points", observables::wall_points}};
     record.unknowns = network_.unknowns();
     const scene::Unused of_meshes{
-        {"geometry.ends", "inlet.profile", "mesh.", "outlet.backflow", "time.scheme", "time.step"},
+        {"geometry.ends", "inlet.profile", "mesh.", "outlet.backflow", "solver.", "time.scheme", "time.step"},
         "the tier is lumped, without ends, cells and sections, and chooses its steps"};
     warnings_ = scene::remarks_on(scene_, {&of_meshes, 1});
     record.remarks = scene_.remarks();

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "app/program.hpp"
+
 namespace tunica {
 
 /// Exit codes of the program.
@@ -18,7 +20,7 @@ struct RunArguments {
   bool quiet = false;
   bool report = true;
 };
-int run_command(const RunArguments& arguments);
+int run_command(const RunArguments& arguments, const Program& program);
 
 struct VerifyArguments {
   std::string scene;
@@ -27,7 +29,7 @@ struct VerifyArguments {
   std::string out;  ///< empty: results/NAME-verify
   bool quiet = false;
 };
-int verify_command(const VerifyArguments& arguments);
+int verify_command(const VerifyArguments& arguments, const Program& program);
 
 struct SceneArguments {
   std::string scene;

@@ -23,10 +23,10 @@ constexpr const char* report_file = "report.html";
 
 }  // namespace
 
-int run_command(const RunArguments& arguments) {
+int run_command(const RunArguments& arguments, const Program& program) {
   const Scene scene = read_scene(arguments.scene, arguments.overrides);
-  const TierList tiers = available_tiers();
-  const Tier& tier = choose_tier(tiers, arguments.tier, scene);
+  const Tier& tier = choose_tier(program.tiers(), arguments.tier, scene);
+  program.before_computing(tier);
   const fs::path folder =
       arguments.out.empty() ? fs::path("results") / scene.name() : fs::path(arguments.out);
   if (!arguments.quiet)

@@ -67,16 +67,16 @@ void remove_earlier(const fs::path& folder) {
 
 }  // namespace
 
-int verify_command(const VerifyArguments& arguments) {
+int verify_command(const VerifyArguments& arguments, const Program& program) {
   const auto read = [&](const std::vector<std::string>& more) {
     std::vector<std::string> overrides = arguments.overrides;
     overrides.insert(overrides.end(), more.begin(), more.end());
     return read_scene(arguments.scene, overrides);
   };
   const Scene scene = read({});
-  const TierList tiers = available_tiers();
   std::vector<std::string> refused;
-  const auto compared = chosen(tiers, arguments.tiers, scene, refused);
+  const auto compared = chosen(program.tiers(), arguments.tiers, scene, refused);
+  for (const Tier* tier : compared) program.before_computing(*tier);
   const fs::path folder =
       arguments.out.empty() ? fs::path("results") / (scene.name() + "-verify") : fs::path(arguments.out);
   if (!arguments.quiet) {

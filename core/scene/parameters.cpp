@@ -268,7 +268,7 @@ std::vector<Parameter> declare() {
   all.push_back(choice("mesh.cell", "quadrilateral", {"quadrilateral", "triangle"},
                        "Cells of the mesh that is made of a cylinder; bubble makes triangles."));
   for (const auto& [key, where] : {std::pair{"mesh.wall_cells", "through the wall"},
-                                   std::pair{"mesh.blood_cells", "from the axis to the wall"},
+                                   std::pair{"mesh.blood_cells", "from the axis (3D: from the core of the lumen's mesh, of half the radius) to the wall"},
                                    std::pair{"mesh.axial_cells", "along the artery, an even number"}})
     all.push_back({key,
                    Kind::integer,
@@ -278,6 +278,18 @@ std::vector<Parameter> declare() {
                    between(1, 4000),
                    {},
                    fmt::format("Number of cells {} of the 2D and 3D tiers.", where)});
+  all.push_back({"mesh.around_cells",
+                 Kind::integer,
+                 "1",
+                 {},
+                 "from accuracy.tolerance",
+                 between(8, 4000),
+                 {},
+                 "Number of cells around the artery, a multiple of 8 (3D tier)."});
+  all.push_back(
+      choice("mesh.symmetry", "auto", {"auto", "full", "half", "quarter"},
+             "Part of the artery that the 3D tier meshes, the rest being its mirror image: auto takes the "
+             "least that the artery and its fibres allow."));
   all.push_back(
       {"mesh.mixed_wall",
        Kind::flag,
@@ -292,6 +304,17 @@ std::vector<Parameter> declare() {
       choice("mesh.motion", "harmonic", {"harmonic", "stiffened"},
              "How the mesh in the blood follows the wall: harmonic, or with small cells made stiffer, which "
              "bears larger motion (2D and 3D tiers)."));
+
+  all.push_back(choice("solver.method", "direct", {"direct"},
+                       "How the 3D tier solves its linear systems: direct factorises (MUMPS)."));
+  all.push_back({"solver.options",
+                 Kind::text,
+                 "",
+                 std::string(),
+                 "",
+                 {},
+                 {},
+                 "PETSc options of the 3D tier, such as \"-ksp_rtol 1e-8\", over those of solver.method."});
 
   all.push_back({"lumped.compartments",
                  Kind::integer,

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "core/physics/wall_momentum.hpp"
+
+namespace tunica::coupled {
+
+/// What the stress of the wall is computed from.
+struct WallStrain {
+  Vector<double> displacement{};  ///< d, cm
+  Tensor<double> gradient{};      ///< dd/dX
+  /// Of laws that split the volume change off: the wall pressure, dyn/cm2, interpolated on its own where
+  /// tissue is mixed, else -U'(J).
+  double pressure = 0;
+
+  void add(double factor, const WallStrain& other);
+  /// Sets the pressure to that of the law where it splits the volume change off.
+  void take_own_pressure(const wall::Law<double>& law);
+};
+
+/// Cauchy stress of a strain and its pressure, dyn/cm2.
+Tensor<double> cauchy(const wall::Law<double>& law, const WallStrain& strain, const wall::MaterialAxes& axes);
+
+/// Families of a law that do not act like an earlier one where the vessel is its own mirror image, as
+/// families of equal |angle| and threshold do.
+std::vector<int> distinct_families(const wall::Law<double>& law);
+
+/// Families at negative angles are the mirror images of those at positive ones: the wall is its own mirror
+/// image, and does not twist under pressure.
+bool is_balanced(const wall::Law<double>& law);
+
+}  // namespace tunica::coupled

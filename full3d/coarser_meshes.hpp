@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/coupled/static_state.hpp"
+#include "full3d/setup.hpp"
+#include "full3d/team.hpp"
+
+namespace tunica::full3d {
+
+/// Meshes that lead from a coarse one to that of a setup. Scene, setup and team must outlive it.
+class CoarserMeshes final : public coupled::CoarserMeshes {
+ public:
+  CoarserMeshes(const Scene& scene, const Setup& finest, Team& team);
+  int count() const override { return static_cast<int>(resolutions_.size()); }
+  std::unique_ptr<coupled::StaticMesh> make(int index) const override;
+  std::vector<double> prolong(const coupled::Equations& from, std::span<const double> y,
+                              const coupled::Equations& to) const override;
+
+ private:
+  const Scene& scene_;
+  Team& team_;
+  std::vector<Resolution> resolutions_;
+};
+
+}  // namespace tunica::full3d

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "full3d/full3d_tier.hpp"
+
+#include <algorithm>
+
+#include "core/coupled/vessel_run.hpp"
+#include "core/scene/unused.hpp"
+#include "core/stability/warning.hpp"
+#include "core/threads.hpp"
+#include "full3d/coarser_meshes.hpp"
+#include "full3d/fields.hpp"
+#include "full3d/observer.hpp"
+#include "full3d/refusal.hpp"
+
+namespace tunica::full3d {
+
+namespace {
+
+const char* name_of(Sector sector) {
+  return sector == Sector::full ? "full" : sector == Sector::half ? "half" : "quarter";
+}
+
+class Full3dVessel final : public coupled::Vessel {
+ public:
+  Full3dVessel(const Scene& scene, Team& team)
+      : scene_(scene),
+        ranks_(team.ranks()),
+        setup_(setup_of(scene)),
+        assembler_(setup_->problem, team.ranks(), solver_of(scene), team.open(scene, setup_->resolution)),
+        coarser_(scene, *setup_, team),
+        observer_(*setup_, assembler_),
+        fields_(*setup_, assembler_, std::max(1, available_threads() / team.ranks().on_machine())) {}
+
+  coupled::Loading& loading() override { return *setup_; }
+  const coupled::Equations& equations() const override { return assembler_; }
+  const coupled::CoarserMeshes& coarser() const override { return coarser_; }
+  const coupled::Observing& observer() const override { return observer_; }
+  const coupled::Picturing& fields() const override { return fields_; }
+  double local_tolerance() const override { return setup_->resolution.local_tolerance; }
+  double newton_tolerance() const override { return setup_->resolution.newton_tolerance; }
+
+  void describe(RunRecord& record) const override {
+    const Resolution& r = setup_->resolution;
+    const Mesh& mesh = setup_->problem.mesh;
+    record.tier = tier_name;
+    record.resolution = {{"element", scene_.text("mesh.element")},
+                         {"cells", mesh.cells.size()},
+                         {"nodes", mesh.points.size()},
+                         {"wall_cells", r.wall_cells},
+                         {"blood_cells", r.blood_cells},
+                         {"axial_cells", r.axial_cells},
+                         {"around_cells", r.around_cells},
+                         {"symmetry", name_of(setup_->sector)},
+                         {"solver", scene_.text("solver.method")},
+                         {"ranks", ranks_.size()}};
+  }
+
+  std::vector<std::string> warnings() const override {
+    std::vector<scene::Unused> unused{{{"lumped."}, "the tier is full3d"}};
+    if (scene_.text("time.mode") == "static")
+      unused.push_back({{"time.beats", "time.start", "time.ramp", "output.interval", "output.profile_times",
+                         "outlet.compliance"},
+                        "time.mode is \"static\""});
+    if (!assembler_.has_blood())
+      unused.push_back({{"blood.", "inlet.profile", "outlet.", "mesh.blood_cells", "mesh.motion"},
+                        "a wall under a given pressure is computed without its blood"});
+    if (setup_->inlet.is_pressure) unused.push_back({{"inlet.profile"}, "a pressure drives the flow"});
+    if (scene_.text("mesh.element") == "bubble")
+      unused.push_back({{"mesh.mixed_wall"}, "mesh.element is \"bubble\""});
+    auto warnings = scene::remarks_on(scene_, unused);
+    const physics::Tether& tether = setup_->problem.tether;
+    if (tether.traction != radial::TetherTraction::normal || tether.stiffness == 0)
+      if (const auto warning = stability::warning(scene_, setup_->expected_pressure))
+        warnings.push_back(*warning);
+    return warnings;
+  }
+
+ private:
+  const Scene& scene_;
+  const Ranks& ranks_;
+  std::unique_ptr<Setup> setup_;
+  Assembler assembler_;
+  CoarserMeshes coarser_;
+  Observer observer_;
+  Fields fields_;
+};
+
+}  // namespace
+
+std::string_view Full3dTier::name() const {
+  return tier_name;
+}
+std::string Full3dTier::refusal(const Scene& scene) const {
+  return full3d::refusal(scene);
+}
+bool Full3dTier::suits(const Scene& scene) const {
+  return full3d::suits(scene);
+}
+
+std::unique_ptr<TierRun> Full3dTier::prepare(const Scene& scene) const {
+  return coupled::vessel_run(scene, [&] { return std::make_unique<Full3dVessel>(scene, team_); });
+}
+
+}  // namespace tunica::full3d

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/coupled/vessel_run.hpp"
+#include "full3d/assembler.hpp"
+#include "full3d/wall_line.hpp"
+
+namespace tunica::full3d {
+
+/// Turns states of the vessel into the tables of a result. Mid-length is half way along the centreline of the
+/// unloaded vessel; P1..P4 divide the wall there from the inner to the outer surface, at the section's x axis:
+/// in a torus the outside of the bend. There the table has further columns for the wall at 90, 180 (the
+/// inside of the bend) and 270 degrees: "radial_displacement.P1.90deg", and so on.
+class Observer final : public coupled::Observing {
+ public:
+  Observer(const Setup& setup, const Assembler& assembler);
+  Observer(const Observer&) = delete;
+  Observer& operator=(const Observer&) = delete;
+
+  observables::Table observables_table() const override;
+  void append_observables(double time, std::span<const double> y, observables::Table& table) const override;
+  void append_profile(double time, std::span<const double> y, observables::Table& profiles) const override;
+  /// along.csv, with a row for each node of the interface on the line of P1, from the inlet to the outlet:
+  /// time[s], z[cm] (current, along the centreline), lumen_radius[cm] (current), pressure[dyn/cm2] at the
+  /// wall, wall_shear_stress[dyn/cm2] on the wall (positive downstream), radial_displacement[cm],
+  /// von_mises.inner[dyn/cm2] in the wall's inner surface.
+  observables::Table along_table() const override;
+  void append_along(double time, std::span<const double> y, observables::Table& along) const override;
+
+  /// At the section's x axis; families act alike there when their |angle| and threshold are equal and the
+  /// wall is its own mirror image.
+  int events() const override { return static_cast<int>(events_.size()); }
+  void event_values(std::span<const double> y, double* values) const override;
+  observables::EventPlace event_place(int event) const override { return events_[event]; }
+
+  observables::Sample sample(double time, std::span<const double> y) const;
+
+ private:
+  struct LineNode {
+    int node;
+    double s;                        ///< along the centreline
+    std::size_t blood, blood_count;  ///< places of the probe
+    std::size_t wall, wall_count;
+    int layer;
+  };
+  void find_line(const Locator& locator);
+  void fill(const WallLine& line, std::span<const double> y, std::span<observables::WallPoint> points,
+            std::vector<WallState>* states = nullptr) const;
+  double shear_stress(const VesselShape::Directions& directions, const BloodSample& blood) const;
+  const wall::Law<double>& law(int layer) const { return setup_.problem.laws[layer]; }
+
+  const Setup& setup_;
+  const Assembler& assembler_;
+  std::vector<Face> section_;  ///< of the lumen at mid-length; empty without blood
+  std::vector<std::unique_ptr<const WallLine>> points_;  ///< by angle, 0 first
+  std::unique_ptr<const WallLine> profile_;
+  std::vector<LineNode> line_;
+  std::unique_ptr<BloodProbe> line_blood_;
+  std::unique_ptr<WallProbe> line_wall_;
+  std::vector<observables::EventPlace> events_;
+};
+
+}  // namespace tunica::full3d

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "full3d/refusal.hpp"
+
+namespace tunica::full3d {
+
+std::string refusal(const Scene& scene) {
+  if (scene.text("geometry.kind") == "mesh")
+    return "geometry.kind = \"mesh\" is a half plane, for --tier axisym; write \"cylinder\" or \"torus\"";
+  if (scene.flag("wall.incompressible"))
+    return "wall.incompressible = true is for the 0D tier; write false and a large wall.bulk_modulus (9e6 "
+           "dyn/cm2 changes the volume by 1 to 2 %)";
+  if (!scene.texts("sensitivity.parameters").empty())
+    return "sensitivity.parameters are for the 0D tier; leave them out, or use --tier lumped";
+  if (scene.has("time.scheme") && scene.text("time.scheme") == "generalized-alpha" &&
+      scene.number("time.step") == 0)
+    return "time.scheme = \"generalized-alpha\" is of first order in pressure when steps vary; give "
+           "time.step, such as 1e-3";
+  return {};
+}
+
+bool suits(const Scene& scene) {
+  return refusal(scene).empty();
+}
+
+}  // namespace tunica::full3d

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "full3d/problem.hpp"
+
+namespace tunica::full3d {
+
+/// A straight or bent vessel of circular cross-section, as o_grid_vessel makes it: coordinates along its
+/// centreline, and the directions that belong to them.
+struct VesselShape {
+  double radius = 0;      ///< of the lumen, cm
+  double thickness = 0;   ///< cm
+  double length = 0;      ///< of the centreline, cm
+  double bend_angle = 0;  ///< rad; 0 for a straight vessel
+
+  /// Section coordinates (x, y) and arc length s along the centreline.
+  struct Local {
+    double x, y, s;
+  };
+  double bend_radius() const { return length / bend_angle; }
+  /// See o_grid_vessel.
+  Point place(const Local& local) const;
+  Local local(const Point& place) const;
+  /// Unit vectors: along the section's radius and circumference at an angle from its x axis, and along the
+  /// centreline.
+  struct Directions {
+    Vector<double> radial, circumferential, axial;
+  };
+  Directions directions(double angle, double s) const;
+  /// Those of the wall at a place.
+  wall::MaterialAxes axes(const Point& place) const;
+};
+
+}  // namespace tunica::full3d
