@@ -21,5 +21,6 @@ if(TUNICA_FULL3D)
 endif()
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/tunica)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
-# The program holds uPlot, for its reports.
+# The program holds uPlot and three.js, for its reports.
 install(FILES ${PROJECT_SOURCE_DIR}/third_party/uplot/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR}/uplot)
+install(FILES ${PROJECT_SOURCE_DIR}/third_party/three/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR}/three)

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "app/report/html.hpp"
+#include "app/report/scene_3d.hpp"
 #include "app/report/sections.hpp"
 #include "core/error.hpp"
 #include "core/observables/build_info.hpp"
@@ -46,6 +47,7 @@ std::string subtitle_of(const std::vector<report::RunSummary>& runs) {
 std::string make_report(const std::vector<StoredResult>& stored, const verification::CrossTier* comparison) {
   if (stored.empty()) throw InvalidInput("a report needs at least one folder with results");
   const auto runs = report::summarize(stored);
+  const report::Scene3d scene = report::scene_3d(runs);
   return report::fill(embedded::report_template(),
                       {{"title", report::escape(title_of(runs))},
                        {"subtitle", report::escape(subtitle_of(runs))},
@@ -54,6 +56,7 @@ std::string make_report(const std::vector<StoredResult>& stored, const verificat
                        {"style", std::string(embedded::report_style())},
                        {"comparison", report::comparison_section(comparison)},
                        {"differences", report::comparison_data(comparison)},
+                       {"viewer", report::viewer_section(scene)},
                        {"headline", report::headline_table(runs)},
                        {"claims", report::claims_section(stored)},
                        {"events", report::events_section(runs)},
@@ -61,7 +64,9 @@ std::string make_report(const std::vector<StoredResult>& stored, const verificat
                        {"data", report::chart_data(runs)},
                        {"uplot_script", std::string(embedded::uplot_script())},
                        {"chart_script", std::string(embedded::report_chart_script())},
-                       {"script", std::string(embedded::report_script())}});
+                       {"script", std::string(embedded::report_script())},
+                       {"viewer_scripts", report::viewer_scripts(scene)},
+                       {"viewer_credit", report::viewer_credit(scene)}});
 }
 
 }  // namespace tunica

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace tunica::observables {
@@ -18,6 +19,8 @@ struct FieldMesh {
   CellShape shape = CellShape::quadrilateral;
   std::vector<std::array<double, 3>> points;  ///< cm, of the unloaded body
   std::vector<int> cells;                     ///< indices of points, corners(shape) for each cell
+  /// The body is this mesh and its mirror images at x = 0, at y = 0, or at both; fields are mirrored too.
+  std::array<bool, 2> mirrored{};
 };
 
 /// One number per cell, the same at all times: a layer, a material.
@@ -53,7 +56,12 @@ struct FieldSeries {
 /// cell fields stand in the first grid; the others include them by XInclude, which the readers of XDMF 2
 /// and of XDMF 3 in ParaView understand (a Reference attribute makes the latter abort). The XDMF 2 reader
 /// does not understand "nan" and loses the rest of that field.
+/// The planes of FieldMesh::mirrored are an Information, which viewers show nothing of: they show the mesh.
 /// Throws std::logic_error when the numbers of values do not fit the mesh.
 std::string to_xdmf(const FieldSeries& series);
+
+/// What to_xdmf wrote, with numbers in single precision. Only text of its form is understood, not XDMF of
+/// others. Throws std::invalid_argument that says what is not of that form.
+FieldSeries from_xdmf(std::string_view text);
 
 }  // namespace tunica::observables

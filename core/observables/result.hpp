@@ -152,6 +152,10 @@ void write_result(const std::filesystem::path& folder, const Scene& scene, const
 /// Profiles, events and sensitivities that were not written come back as tables without columns.
 StoredResult read_result(const std::filesystem::path& folder);
 
+/// The fields on cells in space (tetrahedra, hexahedra) that write_result put into a folder, by their files'
+/// names; plane ones are passed over unread. Throws InvalidInput naming a file that is not as written.
+std::vector<observables::FieldSeries> read_space_fields(const std::filesystem::path& folder);
+
 /// Writes text to a file by way of a temporary file beside it (".NAME.PID.part", removed when writing
 /// fails) and a rename, so that the file is the old or the new one, whole, at every moment, also after
 /// a crash of the machine. Throws OutputFailure.

@@ -5,9 +5,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <stdexcept>
 #include <system_error>
 
 #include "core/error.hpp"
@@ -153,6 +155,25 @@ std::string record_text(const Scene& scene, const RunRecord& run) {
   return record.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+/// Whether the mesh of a file's fields, which stands near its beginning, has cells in space.
+bool is_in_space(const fs::path& file) {
+  std::string head(4096, '\0');
+  std::ifstream stream(file, std::ios::binary);
+  stream.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(stream.gcount()));
+  return head.find("TopologyType=\"Hexahedron\"") != std::string::npos ||
+         head.find("TopologyType=\"Tetrahedron\"") != std::string::npos;
+}
+
+std::string whole_text(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw InvalidInput(fmt::format("{}: cannot be read", file.string()));
+  std::string text(fs::file_size(file), '\0');
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  return text;
+}
+
 }  // namespace
 
 void write_whole(const fs::path& file, std::string_view text) {
@@ -213,6 +234,27 @@ StoredResult read_result(const fs::path& folder) {
     if (needed || fs::exists(path)) stored.result.*file.table = observables::read_csv(path.string());
   }
   return stored;
+}
+
+std::vector<observables::FieldSeries> read_space_fields(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(folder / fields_folder, none))
+    if (entry.path().extension() == fields_extension && is_in_space(entry.path()))
+      files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  std::vector<observables::FieldSeries> all;
+  for (const fs::path& file : files) {
+    try {
+      all.push_back(observables::from_xdmf(whole_text(file)));
+    } catch (const std::invalid_argument& error) {
+      throw InvalidInput(
+          fmt::format("{}: not fields as tunica writes them ({}); without this file the report "
+                      "goes without their picture",
+                      file.string(), error.what()));
+    }
+  }
+  return all;
 }
 
 }  // namespace tunica

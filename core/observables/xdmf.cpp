@@ -161,6 +161,9 @@ std::string to_xdmf(const FieldSeries& series) {
                  "<Xdmf Version=\"3.0\" xmlns:xi=\"http://www.w3.org/2001/XInclude\">\n<Domain>\n"
                  "<Grid Name=\"{}\" GridType=\"Collection\" CollectionType=\"Temporal\">\n",
                  series.name);
+  if (series.mesh.mirrored[0] || series.mesh.mirrored[1])
+    fmt::format_to(std::back_inserter(text), "<Information Name=\"mirrored\" Value=\"{}{}\"/>\n",
+                   series.mesh.mirrored[0] ? "x" : "", series.mesh.mirrored[1] ? "y" : "");
   for (const FieldSeries::Frame& frame : series.frames) {
     fmt::format_to(std::back_inserter(text), "<Grid Name=\"{}\" GridType=\"Uniform\">\n<Time Value=\"",
                    series.name);

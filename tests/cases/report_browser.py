@@ -214,6 +214,12 @@ class Report(unittest.TestCase):
         self.assertEqual(self.value("""[...document.querySelectorAll('button')]
             .filter(button => !button.textContent.trim() && !button.getAttribute('aria-label')).length"""), 0)
 
+    def test_without_webgl_the_rest_is_there(self):
+        self.opens("space", 13)
+        self.assertEqual(self.value("document.documentElement.dataset.viewer"), "missing")
+        self.assertFalse(self.value("document.getElementById('viewer-missing').hidden"))
+        self.assertEqual(self.value("document.querySelectorAll('#viewer, .viewer-tools').length"), 0)
+
     def test_it_prints(self):
         self.browser.open(report("four"))
         target = report("print") + ".pdf"

@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "app/report/report.hpp"
+#include "tests/support/bent_tube.hpp"
 #include "tests/support/fake_tier.hpp"
 #include "tests/support/synthetic.hpp"
 #include "verification/cross_tier.hpp"
@@ -68,6 +69,12 @@ verification::CrossTier verified(const std::filesystem::path& folder) {
                                 {{"ends", {"wall.density=2"}, "<b>ends</b>"}}}});
 }
 
+StoredResult in_space(const char* law, const test_support::BentTube& tube) {
+  StoredResult run = synthetic_run({.law = law});
+  run.result.fields = test_support::bent_tube(tube);
+  return run;
+}
+
 }  // namespace
 
 int main(int count, char** arguments) {
@@ -80,6 +87,15 @@ int main(int count, char** arguments) {
   write_whole(folder / "isotropic.html", make_report({synthetic_run({.law = "EXP1"})}));
   write_whole(folder / "hostile.html", make_report({hostile()}));
   write_whole(folder / "grids.html", make_report({synthetic_run({.law = "EXP1"}), finer_in_time()}));
+  write_whole(folder / "space.html", make_report({in_space("EXP1+EXP2-FS", {})}));
+  write_whole(
+      folder / "spaces.html",
+      make_report({in_space("EXP1+EXP2-FS", {.bend = 0, .is_quarter = true}), synthetic_run({.law = "EXP1"}),
+                   in_space("EXP2", {.is_half = true, .of_tetrahedra = true, .displacement = 0.008})}));
+  // As large as a run of two beats with some 3000 quadratic cells, each shown as eight.
+  write_whole(
+      folder / "large.html",
+      make_report({in_space("EXP1+EXP2-FS", {.per_side = 12, .through = 4, .along = 72, .frames = 33})}));
   const verification::CrossTier found = verified(folder / "verify");
   write_whole(folder / "verify.html", make_report(found.tier_results(), &found));
   return 0;

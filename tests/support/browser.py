@@ -10,15 +10,19 @@ import subprocess
 import tempfile
 import time
 
+# WebGL needs no graphics card then.
+SOFTWARE_WEBGL = ["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+
 
 class Browser:
     """A Chromium with one page. Everything that the page logs, throws or asks of the network is kept."""
 
-    def __init__(self, program="/usr/bin/chromium", width=1280, height=900, dark=False):
+    def __init__(self, program="/usr/bin/chromium", width=1280, height=900, dark=False, webgl=False):
         self.profile = tempfile.mkdtemp(prefix="tunica-browser-")
         to_browser, self.write_end = os.pipe()
         self.read_end, from_browser = os.pipe()
-        command = [program, "--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
+        graphics = SOFTWARE_WEBGL if webgl else ["--disable-gpu", "--disable-3d-apis"]
+        command = [program, "--headless", "--no-sandbox", *graphics, "--disable-quic", "--no-first-run",
                    "--disable-background-networking", "--disable-component-update", "--disable-sync",
                    "--hide-scrollbars", "--remote-debugging-pipe", f"--user-data-dir={self.profile}", "about:blank"]
         # The browser expects its pipe at descriptors 3 and 4.
@@ -85,10 +89,11 @@ class Browser:
         self.call("Emulation.setDeviceMetricsOverride",
                   {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": False})
 
-    def open(self, path, timeout=60):
-        """Opens a file and waits until the page has said how its charts came out."""
+    def open(self, path, timeout=60, address=""):
+        """Opens a file, with what its address has behind #, and waits until the page has said how its charts came
+        out."""
         self.events.clear()
-        self.call("Page.navigate", {"url": "file://" + os.path.abspath(path)})
+        self.call("Page.navigate", {"url": "file://" + os.path.abspath(path) + (f"#{address}" if address else "")})
         end = time.monotonic() + timeout
         while time.monotonic() < end:
             status = self.evaluate("document.readyState === 'complete' && document.documentElement.dataset.status")

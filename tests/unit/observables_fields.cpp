@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <functional>
 #include <stdexcept>
 
+#include "core/error.hpp"
 #include "core/observables/field_series.hpp"
 #include "core/observables/result.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -116,6 +118,53 @@ TEST(Xdmf, WhatDoesNotFitTheMeshIsRefused) {
     mistake(series);
     EXPECT_THROW(to_xdmf(series), std::logic_error) << "mistake " << &mistake - mistakes;
   }
+}
+
+TEST(Xdmf, IsReadBack) {
+  FieldSeries series = square();
+  series.mesh.mirrored = {true, false};
+  const FieldSeries read = from_xdmf(to_xdmf(series));
+  // Equal text is equal numbers: they are written with as many digits as they have.
+  EXPECT_EQ(to_xdmf(read), to_xdmf(series));
+  EXPECT_EQ(read.name, "square");
+  EXPECT_EQ(read.mesh.mirrored, (std::array<bool, 2>{true, false}));
+  EXPECT_EQ(read.point_fields[0].components, 3U);
+  EXPECT_TRUE(std::isnan(read.frames[1].values[1][2]));
+  EXPECT_EQ(from_xdmf(square_text).mesh.mirrored, (std::array<bool, 2>{false, false}));
+}
+
+TEST(Xdmf, HalfAFileOrAnotherFormIsNotRead) {
+  const std::string text = square_text;
+  for (std::size_t length = 0; length + 1 < text.size(); length += 7)
+    EXPECT_THROW(from_xdmf(text.substr(0, length)), std::invalid_argument) << length;
+  const std::pair<const char*, const char*> mistakes[] = {
+      {"0 1 2\n", "0 1 4\n"},        {"0 1 2\n", "0 1 -1\n"},
+      {"0 1 2\n", "0 1\n"},          {"0 1 2\n", "0 1 x\n"},
+      {"\"Triangle\"", "\"Wedge\""}, {"\"XML\"", "\"HDF\""},
+      {"<Time Value=\"0\"/>", ""},   {"Dimensions=\"2 3\"", "Dimensions=\"99999999999 3\""},
+      {"\"stretch\"", "\"other\""},  {"<Time Value=\"0\"/>", "<Time Value=\"now\"/>"}};
+  for (const auto& [right, wrong] : mistakes) {
+    std::string broken = text;
+    broken.replace(broken.find(right), std::string(right).size(), wrong);
+    EXPECT_THROW(from_xdmf(broken), std::invalid_argument) << right << " as " << wrong;
+  }
+}
+
+TEST(StoreFields, OnlyThoseInSpaceAreReadBack) {
+  const TemporaryFolder folder;
+  FieldSeries body;
+  body.name = "body";
+  body.mesh = {CellShape::tetrahedron, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {0, 1, 2, 3}};
+  body.frames = {{0, {}}};
+  write_result(folder.path(), small_scene(), with_fields({square(), body}));
+  const auto read = read_space_fields(folder.path());
+  ASSERT_EQ(read.size(), 1U);
+  EXPECT_EQ(to_xdmf(read[0]), to_xdmf(body));
+  EXPECT_TRUE(read_space_fields(folder.path() / "nothing").empty());
+
+  const std::string text = to_xdmf(body);
+  write_whole(folder.path() / "fields/body.xdmf", text.substr(0, text.size() / 2));
+  EXPECT_THROW(read_space_fields(folder.path()), InvalidInput);
 }
 
 TEST(StoreFields, EachSeriesHasItsFile) {
