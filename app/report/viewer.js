@@ -127,6 +127,19 @@ const Viewer = (() => {
       share.needsUpdate = true;
     }
 
+    // The value that a field has where a ray meets the body, and how far that is; nothing where it meets none.
+    meet(ray, field, frame) {
+      const {height} = this.attributes, {open, cut} = this.uniforms, count = this.points.length / 3;
+      for (const mesh of [...this.copies, ...this.sections]) mesh.geometry.boundingSphere = null;
+      for (const hit of ray.intersectObjects([...this.copies, ...this.sections].filter(mesh => mesh.visible))) {
+        const corners = [hit.face.a, hit.face.b, hit.face.c], weights = hit.barycoord.toArray();
+        const mean = at => corners.reduce((sum, vertex, k) => sum + weights[k] * at(vertex), 0);
+        const isCutAway = open.value && this.copies.includes(hit.object) && hit.object.scale.y * mean(vertex => height.array[vertex]) > cut.value;
+        if (!isCutAway) return {distance: hit.distance, value: field ? mean(vertex => valueAt(field, frame * count + this.places[vertex])) : NaN};
+      }
+      return null;
+    }
+
     show(shown, open, shaded) {
       this.uniforms.open.value = open;
       this.uniforms.shaded.value = shaded;
@@ -187,6 +200,17 @@ const Viewer = (() => {
     const clock = `t = ${state.time.toFixed(3)} s${state.scale === 1 ? "" : `, displacement × ${state.scale}`}`;
     at("clock").textContent = clock;
     canvas.setAttribute("aria-label", `The artery in space, ${state.part}${state.cut ? ", cut open" : ""}, ${clock}, coloured by ${title}`);
+  }
+
+  // What the picture's colour is worth at the pointer.
+  const ray = new THREE.Raycaster();
+  function read(event) {
+    const box = canvas.getBoundingClientRect(), {part, field} = chosen();
+    ray.setFromCamera(new THREE.Vector2(2 * (event.clientX - box.left) / box.width - 1, 1 - 2 * (event.clientY - box.top) / box.height), view.camera);
+    const hits = bodies.filter(body => isShown(body.part.name)).map(body => ({name: body.part.name, ...body.meet(ray, body.part.name === part ? field : null, frame)}))
+      .filter(hit => hit.distance !== undefined).sort((a, b) => a.distance - b.distance);
+    const value = hits.length && hits[0].name === part ? hits[0].value : NaN;
+    at("pointer").textContent = Number.isNaN(value) ? "" : `${field.label} ${text(value, 0)}${field.unit ? ` ${field.unit}` : ""}`;
   }
 
   function fill(select, options, value) {
@@ -254,6 +278,7 @@ const Viewer = (() => {
     at("time-shown").textContent = `${state.time.toFixed(3)} s`;
     const radio = at("parts").querySelector(`input[value="${state.part}"]`);
     if (radio) radio.checked = true;
+    at("pointer").textContent = "";
     label();
     draw();
   }
@@ -277,6 +302,8 @@ const Viewer = (() => {
   at("time").addEventListener("input", event => { play(false); show({time: runs[state.run].times[event.target.value]}); });
   at("play").addEventListener("click", () => play(!playing));
   at("home").addEventListener("click", () => view.home());
+  canvas.addEventListener("pointermove", event => { if (!event.buttons) read(event); });
+  canvas.addEventListener("pointerleave", () => { at("pointer").textContent = ""; });
   at("bar").style.background = Shaders.gradient;
 
   const address = new URLSearchParams(location.hash.slice(1));

@@ -110,6 +110,30 @@ class Viewer(unittest.TestCase):
         self.assertEqual(max((key for key in colours if key.endswith(",255")), key=colours.get), "158,158,158,255")
         self.assertIn("grey: none", self.bar())
 
+    def test_the_pointer_reads_values(self):
+        self.opens("spaces")
+        self.value("document.getElementById('viewer').scrollIntoView()")
+        self.value("Viewer.show({run: 0, part: 'both', field: 'blood/pressure', time: 0.4, cut: true})")
+        self.value("Viewer.view.look(new URLSearchParams('azimuth=0&elevation=0'))")
+        time.sleep(0.1)
+        box = self.value("(() => { const box = Viewer.canvas.getBoundingClientRect(); return [box.left, box.top, box.width, box.height]; })()")
+        reading = "document.getElementById('viewer-pointer').textContent"
+        # The picture is raised by 3 % for the colours below it.
+        x, y = box[0] + box[2] / 2, box[1] + 0.47 * box[3]
+        self.browser.move(x, y)
+        self.assertEqual(self.value(reading), "Pressure 120 mmHg")
+        # Uncut, the wall is before the blood and has another colour.
+        self.value("Viewer.show({cut: false})")
+        self.browser.move(x + 1, y)
+        self.assertEqual(self.value(reading), "")
+        # On the outer surface at mid-length: 0.01 cm times 0.033 / 0.045.
+        self.value("Viewer.show({field: 'wall/displacement'})")
+        self.browser.move(x, y)
+        self.assertEqual(self.value(reading), "Displacement 0.00733 cm")
+        self.browser.move(box[0] + 5, box[1] + 5)
+        self.assertEqual(self.value(reading), "")
+        self.quiet()
+
     def test_a_cut_shows_the_inside(self):
         for run in (0, 1):
             self.opens("spaces")

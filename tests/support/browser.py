@@ -114,6 +114,10 @@ class Browser:
                   {"type": kind, "x": x, "y": y, "button": "left", "buttons": 0 if kind == "mouseReleased" else 1,
                    "clickCount": clicks})
 
+    def move(self, x, y):
+        """Moves the pointer with no button pressed."""
+        self.call("Input.dispatchMouseEvent", {"type": "mouseMoved", "x": x, "y": y, "button": "none", "buttons": 0})
+
     def complaints(self):
         """Errors and warnings of the console and uncaught exceptions."""
         found = []
