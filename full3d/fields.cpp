@@ -76,6 +76,9 @@ Fields::Fields(const Setup& setup, const Assembler& assembler, int threads)
       shown_(shown_cells(setup.problem.mesh.shape, basis_ == Basis::quadratic)) {
   add_blood();
   add_wall(threads);
+  // See Sector: the planes of symmetry are x = 0 of a quarter, and y = 0.
+  for (FieldSeries* series : {&blood_, &wall_})
+    series->mesh.mirrored = {setup.sector == Sector::quarter, setup.sector != Sector::full};
 }
 
 void Fields::show(int cell, std::span<const int> points, FieldSeries& series) const {
