@@ -4,12 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
-#include <functional>
-#include <numeric>
 #include <utility>
 
+#include "core/element/grading.hpp"
 #include "core/error.hpp"
 
 namespace tunica::axisym {
@@ -18,42 +16,24 @@ namespace {
 
 constexpr double most_nodes = 1e7;
 
-void need_positive(const char* key, double value) {
-  if (!(value > 0) || !std::isfinite(value))
-    throw InvalidInput(fmt::format("{} = {:g} cm; a mesh needs a positive length", key, value));
-}
-
-void need_cells(const char* key, int value) {
-  if (value < 1) throw InvalidInput(fmt::format("{} = {}; a mesh needs at least 1", key, value));
-}
-
-void need_grading(const char* name, double value) {
-  if (!(value >= 1 && value <= steepest_grading))
-    throw InvalidInput(
-        fmt::format("the mesh's {} = {:g}; allowed is 1 (uniform) to {:g}", name, value, steepest_grading));
-}
-
 void check_spec(const TubeSpec& spec) {
   if (!spec.blood && !spec.wall)
     throw InvalidInput("a mesh without blood and without wall; ask for one of them");
-  need_positive("geometry.radius", spec.radius);
-  need_positive("geometry.length", spec.length);
-  need_cells("mesh.axial_cells", spec.axial_cells);
-  if (spec.axial_cells % 2 != 0)
-    throw InvalidInput(fmt::format("mesh.axial_cells = {} is odd; take {}, so that mid-length is a cell line",
-                                   spec.axial_cells, spec.axial_cells + 1.0));
-  need_grading("end grading", spec.end_grading);
+  element::check_length("geometry.radius", spec.radius);
+  element::check_length("geometry.length", spec.length);
+  element::check_axial_cells(spec.axial_cells);
+  element::check_grading("end grading", spec.end_grading);
   double columns = 0;
   if (spec.blood) {
-    need_cells("mesh.blood_cells", spec.blood_cells);
-    need_grading("interface grading", spec.interface_grading);
+    element::check_cells("mesh.blood_cells", spec.blood_cells);
+    element::check_grading("interface grading", spec.interface_grading);
     columns += spec.blood_cells;
   }
   if (spec.wall) {
-    need_cells("mesh.wall_cells", spec.wall_cells);
-    need_grading("wall grading", spec.wall_grading);
+    element::check_cells("mesh.wall_cells", spec.wall_cells);
+    element::check_grading("wall grading", spec.wall_grading);
     if (spec.layers.empty()) throw InvalidInput("the wall has no layer to mesh; give it a thickness");
-    for (const double thickness : spec.layers) need_positive("geometry.thickness", thickness);
+    for (const double thickness : spec.layers) element::check_length("geometry.thickness", thickness);
     columns += std::max<double>(spec.wall_cells, static_cast<double>(spec.layers.size()));
   }
   const double nodes = (2 * columns + 1) * (2.0 * spec.axial_cells + 1);
@@ -64,28 +44,6 @@ void check_spec(const TubeSpec& spec) {
                     nodes, most_nodes));
 }
 
-/// [0, 1] onto itself with lengths of cells in geometric progression: x'(1)/x'(0) = exp(log_ratio).
-double geometric(double s, double log_ratio) {
-  return log_ratio == 0 ? s : std::expm1(log_ratio * s) / std::expm1(log_ratio);
-}
-double inverse_geometric(double x, double log_ratio) {
-  return log_ratio == 0 ? x : std::log1p(x * std::expm1(log_ratio)) / log_ratio;
-}
-
-std::vector<double> axial_lines(const TubeSpec& spec) {
-  const int n = spec.axial_cells;
-  const double steepness = std::acosh(std::sqrt(spec.end_grading));
-  std::vector<double> lines(n + 1);
-  // The upper half mirrors the lower one, whatever is rounded.
-  for (int j = 0; j <= n / 2; ++j) {
-    const double x = 2.0 * j / n - 1;
-    const double stretched = steepness == 0 ? x : std::tanh(steepness * x) / std::tanh(steepness);
-    lines[j] = 0.5 * spec.length * (1 + stretched);
-    lines[n - j] = spec.length - lines[j];
-  }
-  return lines;
-}
-
 /// Cell lines from radius to radius, and the layer of each column.
 struct Columns {
   std::vector<double> lines;
@@ -94,51 +52,24 @@ struct Columns {
 };
 
 void add_blood(const TubeSpec& spec, Columns& columns) {
-  const double log_ratio = -std::log(spec.interface_grading);
-  for (int i = 0; i < spec.blood_cells; ++i) {
-    columns.lines.push_back(spec.radius * geometric(static_cast<double>(i) / spec.blood_cells, log_ratio));
-    columns.parts.push_back(Part::blood);
-    columns.layers.push_back(0);
-  }
+  for (const double line : element::shrinking_lines(spec.blood_cells, spec.interface_grading))
+    columns.lines.push_back(spec.radius * line);
+  columns.parts.assign(spec.blood_cells, Part::blood);
+  columns.layers.assign(spec.blood_cells, 0);
 }
 
 void add_wall(const TubeSpec& spec, Columns& columns) {
-  const double thickness = std::accumulate(spec.layers.begin(), spec.layers.end(), 0.0);
-  const double log_ratio = std::log(spec.wall_grading);
-  // In the coordinate s cells are alike; each further cell goes to the layer where they are widest.
-  std::vector<double> ends{0};
-  double depth = 0;
-  for (const double layer : spec.layers)
-    ends.push_back(inverse_geometric((depth += layer) / thickness, log_ratio));
-  std::vector<int> counts(spec.layers.size(), 1);
-  const auto width = [&](std::size_t k) { return (ends[k + 1] - ends[k]) / counts[k]; };
-  for (int cells = static_cast<int>(counts.size()); cells < spec.wall_cells; ++cells) {
-    std::size_t widest = 0;
-    for (std::size_t k = 1; k < counts.size(); ++k)
-      // Layers that are as wide but for rounding count as equal: the inner one comes first.
-      if (width(k) > width(widest) * (1 + 1e-9)) widest = k;
-    ++counts[widest];
-  }
-  double inner = spec.radius;
-  for (std::size_t k = 0; k < counts.size(); ++k) {
-    for (int i = 0; i < counts[k]; ++i) {
-      const double s = ends[k] + i * width(k);
-      columns.lines.push_back(i == 0 ? inner : spec.radius + thickness * geometric(s, log_ratio));
-      columns.parts.push_back(Part::wall);
-      columns.layers.push_back(static_cast<int>(k));
-    }
-    inner += spec.layers[k];
-  }
-  columns.lines.push_back(inner);
+  const auto wall = element::wall_lines(spec.radius, spec.layers, spec.wall_cells, spec.wall_grading);
+  if (!columns.lines.empty()) columns.lines.pop_back();  // the interface
+  columns.lines.insert(columns.lines.end(), wall.lines.begin(), wall.lines.end());
+  columns.layers.insert(columns.layers.end(), wall.layers.begin(), wall.layers.end());
+  columns.parts.resize(columns.layers.size(), Part::wall);
 }
 
 Columns radial_columns(const TubeSpec& spec) {
   Columns columns;
   if (spec.blood) add_blood(spec, columns);
-  if (spec.wall)
-    add_wall(spec, columns);
-  else
-    columns.lines.push_back(spec.radius);
+  if (spec.wall) add_wall(spec, columns);
   return columns;
 }
 
@@ -152,7 +83,7 @@ class Builder {
         interface_column_(interface_column),
         stride_(2 * static_cast<int>(columns.lines.size()) - 1) {
     mesh_.shape = shape;
-    const std::vector<double> r = with_midpoints(columns.lines), z = with_midpoints(rows);
+    const std::vector<double> r = element::with_midpoints(columns.lines), z = element::with_midpoints(rows);
     mesh_.points.reserve(r.size() * z.size());
     for (const double height : z)
       for (const double radius : r) mesh_.points.push_back({radius, height});
@@ -178,15 +109,6 @@ class Builder {
   }
 
  private:
-  static std::vector<double> with_midpoints(const std::vector<double>& lines) {
-    std::vector<double> all{lines.front()};
-    for (std::size_t i = 1; i < lines.size(); ++i) {
-      all.push_back(0.5 * (lines[i - 1] + lines[i]));
-      all.push_back(lines[i]);
-    }
-    return all;
-  }
-
   void add_cells(int i, int j, bool rising) {
     const int a = 2 * j * stride_ + 2 * i, b = a + 2, d = a + 2 * stride_, c = d + 2;
     const int ab = a + 1, da = a + stride_, centre = da + 1, bc = da + 2, cd = d + 1;
@@ -234,22 +156,10 @@ class Builder {
 Mesh structured_tube(const TubeSpec& spec) {
   check_spec(spec);
   const Columns columns = radial_columns(spec);
-  const std::vector<double> rows = axial_lines(spec);
-  const auto strictly_rising = [](const std::vector<double>& lines) {
-    return std::adjacent_find(lines.begin(), lines.end(), std::greater_equal<>()) == lines.end();
-  };
-  if (!strictly_rising(columns.lines) || !strictly_rising(rows))
-    throw InvalidInput("cells of the mesh would have no width; use fewer cells or a milder grading");
+  const std::vector<double> rows = element::lines_along(spec.length, spec.axial_cells, spec.end_grading);
+  element::check_widths(columns.lines);
+  element::check_widths(rows);
   return Builder(columns, rows, spec.shape, spec.blood ? spec.blood_cells : 0).build();
-}
-
-double bending_layer_grading(double radius, double thickness, double length) {
-  // A quarter of the cells (x from -1 to -1/2) reaches to the layer's width: with t = tanh(d/2),
-  // (1 - tanh(d/2)/tanh d)/2 = (1 - t^2)/4.
-  const double layer = 3 * std::sqrt(radius * thickness) / length;
-  if (!(layer < 0.25)) return 1;
-  const double steepness = 2 * std::atanh(std::sqrt(1 - 4 * layer));
-  return std::pow(std::cosh(steepness), 2);
 }
 
 }  // namespace tunica::axisym

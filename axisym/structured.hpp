@@ -4,11 +4,12 @@
 #include <vector>
 
 #include "axisym/mesh.hpp"
+#include "core/element/grading.hpp"
 
 namespace tunica::axisym {
 
-/// Ratio of the longest to the shortest cell in one direction that numbers still resolve.
-inline constexpr double steepest_grading = 1e6;
+using element::bending_layer_grading;
+using element::steepest_grading;
 
 /// A straight tube in rows and columns of rectangles, from z = 0 (inlet) to z = length (outlet).
 struct TubeSpec {
@@ -30,18 +31,11 @@ struct TubeSpec {
   CellShape shape = CellShape::quadrilateral;
 };
 
-/// Axial cell lines: z = L/2 (1 + tanh(d x)/tanh d) at equidistant x in [-1, 1], with cosh^2 d the end
-/// grading (Vinokur, J. Comput. Phys. 50:215, 1983). Radial cell lines: lengths of cells in geometric
-/// progression. Nodes between corners lie midway. Triangles are made by halving each rectangle,
-/// diagonals alternating so that the mesh is its own mirror image about mid-length and that no triangle
-/// has two sides on inlet and interface.
+/// Cell lines: element::lines_along, shrinking_lines in blood and wall_lines. Nodes between corners lie
+/// midway. Triangles are made by halving each rectangle, diagonals alternating so that the mesh is its own
+/// mirror image about mid-length and that no triangle has two sides on inlet and interface.
 /// Throws InvalidInput for sizes that are not positive and finite, counts below 1, an odd number of axial
 /// cells, gradings outside 1 to 10^6, and more than ten million nodes.
 Mesh structured_tube(const TubeSpec& spec);
-
-/// End grading that gives half of the axial cells to the two boundary layers in which a clamped shell bends:
-/// each of width 3 sqrt(R h), after which exp(-1.22 z/sqrt(R h)) has fallen to 3 %. 1 for a tube so short
-/// that they cover half of it.
-double bending_layer_grading(double radius, double thickness, double length);
 
 }  // namespace tunica::axisym
