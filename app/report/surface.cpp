@@ -90,8 +90,7 @@ bool in_symmetry_plane(const FieldMesh& mesh, const Face& face, double tolerance
 /// Makes vertices of the corners of faces; corners at a point are one vertex where the surface is smooth.
 class Vertices {
  public:
-  Vertices(const FieldMesh& mesh, Surface& surface)
-      : mesh_(mesh), surface_(surface), place_(mesh.points.size(), -1), known_(mesh.points.size()) {}
+  Vertices(std::size_t points, Surface& surface) : surface_(surface), place_(points, -1), known_(points) {}
 
   int at(int point, const Point& normal) {
     for (const auto& [vertex, direction] : known_[point])
@@ -107,7 +106,6 @@ class Vertices {
   }
 
  private:
-  const FieldMesh& mesh_;
   Surface& surface_;
   std::vector<int> place_;
   std::vector<std::vector<std::pair<int, Point>>> known_;
@@ -230,7 +228,7 @@ std::vector<Face> boundary_faces(const FieldMesh& mesh) {
 
 Surface visible_surface(const FieldMesh& mesh, double cut) {
   Surface surface;
-  Vertices vertices(mesh, surface);
+  Vertices vertices(mesh.points.size(), surface);
   for (const Face& face : boundary_faces(mesh)) {
     const Point normal = area(mesh.points, face);
     std::vector<int> corners;
