@@ -135,7 +135,7 @@ TEST_P(Places, OnFacesMeetTheNeighbour) {
 }
 
 TEST_P(Places, OnEdgesMeetAllCellsAround) {
-  // The middle of an edge from the axis of the vessel on: corners shared by the cells are counted by hand.
+  // They are those that share its two ends.
   const auto basis = element::solid::Basis::linear;
   const int corners = element::solid::shape_count(mesh_.shape, basis);
   for (int cell = 0; cell < static_cast<int>(mesh_.cells.size()); cell += 7) {
