@@ -46,11 +46,10 @@ class Assembler final : public coupled::Equations {
   /// All cells, on this rank.
   const CellWork& all_cells() const { return *all_; }
   Share& share() const { return share_; }
+  LoadedStage loaded(const coupled::Stage& stage, std::span<const double> y) const;
 
  private:
   friend class SharedTangent;
-  LoadedStage loaded(const coupled::Stage& stage, std::span<const double> y) const;
-
   const Problem& problem_;
   Layout layout_;
   mutable Share share_;
