@@ -6,7 +6,8 @@
 namespace tunica::axisym {
 
 std::vector<std::string> remarks_on_unused_keys(const Scene& scene, const Setup& setup) {
-  std::vector<scene::Unused> unused{{{"lumped.", "mesh.around_cells", "mesh.symmetry", "solver."}, "the tier is axisym"}};
+  std::vector<scene::Unused> unused{
+      {{"lumped.", "mesh.around_cells", "mesh.symmetry", "solver."}, "the tier is axisym"}};
   if (scene.text("time.mode") == "static")
     unused.push_back({{"time.beats", "time.start", "time.ramp", "output.interval", "output.profile_times",
                        "outlet.compliance"},

@@ -61,8 +61,8 @@ void put(std::vector<float>& values, const Vector<double>& vector) {
 FieldSeries named(const char* name, Shape shape) {
   FieldSeries series;
   series.name = name;
-  series.mesh.shape = shape == Shape::hexahedron ? observables::CellShape::hexahedron
-                                                 : observables::CellShape::tetrahedron;
+  series.mesh.shape =
+      shape == Shape::hexahedron ? observables::CellShape::hexahedron : observables::CellShape::tetrahedron;
   series.point_fields.push_back({"displacement", "cm", 3});
   return series;
 }
@@ -104,8 +104,8 @@ void Fields::add_blood() {
         point = static_cast<int>(blood_points_.size());
         BloodPoint made{node, {}};
         // The pressure is linear: at a middle it is the mean over the corners around it.
-        const auto linear = element::solid::shapes_at(mesh.shape, Basis::linear,
-                                                      node_position(mesh.shape, basis_, k));
+        const auto linear =
+            element::solid::shapes_at(mesh.shape, Basis::linear, node_position(mesh.shape, basis_, k));
         for (int c = 0; c < linear.count; ++c)
           if (linear.value[c] > 1e-6) made.corners.push_back(mesh.node(cell, Basis::linear, c));
         blood_points_.push_back(std::move(made));
@@ -122,8 +122,7 @@ void Fields::add_wall(int threads) {
   const Mesh& mesh = problem.mesh;
   wall_ = named("wall", mesh.shape);
   wall_.cell_fields.push_back({"layer", "1", {}});
-  for (const char* name :
-       {"von_mises", "circumferential_stress", "radial_stress", "axial_stress"})
+  for (const char* name : {"von_mises", "circumferential_stress", "radial_stress", "axial_stress"})
     wall_.point_fields.push_back({name, "dyn/cm2", 1});
   for (const auto& law : problem.laws)
     for (const int family : coupled::distinct_families(law)) families_.push_back(family);

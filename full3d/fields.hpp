@@ -17,9 +17,9 @@ namespace tunica::full3d {
 /// Series "blood": displacement of the mesh, velocity, pressure. Series "wall": cell field "layer",
 /// displacement; the Cauchy stress as von_mises, circumferential_stress, radial_stress, axial_stress, of the
 /// mean strain of those cells of a layer that meet at a point (points on boundaries of layers are there once
-/// for each, so that jumps stay); recruitment, fiber_stretch and fiber_direction (deformed, of unit length) of
-/// family 1, and with ".2" and so on of further families that do not act alike, NaN in layers without such a
-/// family.
+/// for each, so that jumps stay); recruitment, fiber_stretch and fiber_direction (deformed, of unit length)
+/// of family 1, and with ".2" and so on of further families that do not act alike, NaN in layers without such
+/// a family.
 class Fields final : public coupled::Picturing {
  public:
   Fields(const Setup& setup, const Assembler& assembler, int threads);

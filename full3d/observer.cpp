@@ -51,11 +51,12 @@ struct Column {
   const char* unit;
   double observables::WallPoint::*value;
 };
-constexpr Column wall_columns[] = {{"radial_displacement", "cm", &observables::WallPoint::radial_displacement},
-                                   {"fiber_angle", "deg", &observables::WallPoint::fiber_angle},
-                                   {"fiber_stretch", "1", &observables::WallPoint::fiber_stretch},
-                                   {"recruitment", "1", &observables::WallPoint::recruitment},
-                                   {"von_mises", "dyn/cm2", &observables::WallPoint::von_mises}};
+constexpr Column wall_columns[] = {
+    {"radial_displacement", "cm", &observables::WallPoint::radial_displacement},
+    {"fiber_angle", "deg", &observables::WallPoint::fiber_angle},
+    {"fiber_stretch", "1", &observables::WallPoint::fiber_stretch},
+    {"recruitment", "1", &observables::WallPoint::recruitment},
+    {"von_mises", "dyn/cm2", &observables::WallPoint::von_mises}};
 
 }  // namespace
 
@@ -69,7 +70,8 @@ Observer::Observer(const Setup& setup, const Assembler& assembler) : setup_(setu
   };
   points_.push_back(line_at(0, observables::wall_points));
   if (setup.shape.bend_angle != 0)
-    for (const int angle : further_angles) points_.push_back(line_at(angle / degrees, observables::wall_points));
+    for (const int angle : further_angles)
+      points_.push_back(line_at(angle / degrees, observables::wall_points));
   profile_ = line_at(0, profile_points);
   for (int p = 0; p < observables::wall_points; ++p) {
     const auto& tissue = law(points_[0]->layer(p));
@@ -112,8 +114,8 @@ void Observer::find_line(const Locator& locator) {
   line_wall_ = wall_probe(problem, assembler_.layout(), std::move(wall), false);
 }
 
-void Observer::fill(const WallLine& line, std::span<const double> y,
-                    std::span<observables::WallPoint> points, std::vector<WallState>* states) const {
+void Observer::fill(const WallLine& line, std::span<const double> y, std::span<observables::WallPoint> points,
+                    std::vector<WallState>* states) const {
   auto found = line.states(y);
   for (std::size_t p = 0; p < found.size(); ++p) {
     const WallState& state = found[p];

@@ -12,8 +12,8 @@
 namespace tunica::full3d {
 
 /// Turns states of the vessel into the tables of a result. Mid-length is half way along the centreline of the
-/// unloaded vessel; P1..P4 divide the wall there from the inner to the outer surface, at the section's x axis:
-/// in a torus the outside of the bend. There the table has further columns for the wall at 90, 180 (the
+/// unloaded vessel; P1..P4 divide the wall there from the inner to the outer surface, at the section's x
+/// axis: in a torus the outside of the bend. There the table has further columns for the wall at 90, 180 (the
 /// inside of the bend) and 270 degrees: "radial_displacement.P1.90deg", and so on.
 class Observer final : public coupled::Observing {
  public:
@@ -55,7 +55,7 @@ class Observer final : public coupled::Observing {
 
   const Setup& setup_;
   const Assembler& assembler_;
-  std::vector<Face> section_;  ///< of the lumen at mid-length; empty without blood
+  std::vector<Face> section_;                            ///< of the lumen at mid-length; empty without blood
   std::vector<std::unique_ptr<const WallLine>> points_;  ///< by angle, 0 first
   std::unique_ptr<const WallLine> profile_;
   std::vector<LineNode> line_;

@@ -79,8 +79,7 @@ std::vector<double> prolong(const Problem& from, const Layout& from_layout, std:
     const auto strains =
         wall_probe(from, from_layout, places_of(from, to, nodes, Part::wall), false)->strains(y);
     for (std::size_t k = 0; k < nodes.size(); ++k)
-      for (int c = 0; c < 3; ++c)
-        state[to_layout.displacement(nodes[k], c)] = strains[k].displacement[c];
+      for (int c = 0; c < 3; ++c) state[to_layout.displacement(nodes[k], c)] = strains[k].displacement[c];
   }
   if (to.mesh.has(Part::blood)) {
     const auto nodes = nodes_of(to, Part::blood);

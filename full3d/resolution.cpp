@@ -68,13 +68,14 @@ Sector sector_of(const Scene& scene) {
                                     [](const auto& layer) { return coupled::is_balanced(layer.law); });
   const bool bent = scene.text("geometry.kind") == "torus";
   if (asked != "auto" && !balanced)
-    throw InvalidInput(
-        fmt::format("mesh.symmetry = \"{}\": the wall.families are not in balance between positive and negative "
-                    "angles, so that the artery is not its own mirror image; write \"full\" or \"auto\"",
-                    asked));
+    throw InvalidInput(fmt::format(
+        "mesh.symmetry = \"{}\": the wall.families are not in balance between positive and negative "
+        "angles, so that the artery is not its own mirror image; write \"full\" or \"auto\"",
+        asked));
   if (asked == "quarter" && bent)
     throw InvalidInput(
-        "mesh.symmetry = \"quarter\" is for straight arteries; a torus is its own mirror image about the plane of "
+        "mesh.symmetry = \"quarter\" is for straight arteries; a torus is its own mirror image about the "
+        "plane of "
         "its bend alone: write \"half\" or \"auto\"");
   if (asked == "half" || (asked == "auto" && balanced && bent)) return Sector::half;
   if (asked == "quarter" || (asked == "auto" && balanced)) return Sector::quarter;
@@ -116,7 +117,7 @@ VesselSpec vessel_spec(const Scene& scene, const Resolution& resolution, bool wi
 }
 
 SolverChoice solver_of(const Scene& scene) {
-  return {scene.text("solver.method"), scene.text("solver.options")};
+  return {scene.text("solver.method"), scene.has("solver.options") ? scene.text("solver.options") : ""};
 }
 
 }  // namespace tunica::full3d

@@ -10,10 +10,10 @@ namespace tunica::full3d {
 /// Cells and steps that a scene's tolerance asks for. The numbers were found by computing the paper's
 /// cylinder and torus against finer meshes (docs/verification/full3d.md).
 struct Resolution {
-  int wall_cells = 0;    ///< through the wall
-  int blood_cells = 0;   ///< from the core of the lumen's O-grid to the wall
-  int axial_cells = 0;   ///< along the artery
-  int around_cells = 0;  ///< around the whole circumference
+  int wall_cells = 0;          ///< through the wall
+  int blood_cells = 0;         ///< from the core of the lumen's O-grid to the wall
+  int axial_cells = 0;         ///< along the artery
+  int around_cells = 0;        ///< around the whole circumference
   double local_tolerance = 0;  ///< of a time step
   double newton_tolerance = 0;
 };

@@ -91,14 +91,13 @@ void WallLine::choose_samples(Spot& spot) const {
   if (count == 0) return;
   // Samples are sorted by depth: the nearest ones follow each other.
   spot.first_sample = begin;
-  while (spot.first_sample + count < end &&
-         samples_[spot.first_sample + count].depth - spot.depth < spot.depth - samples_[spot.first_sample].depth)
+  while (spot.first_sample + count < end && samples_[spot.first_sample + count].depth - spot.depth <
+                                                spot.depth - samples_[spot.first_sample].depth)
     ++spot.first_sample;
   for (std::size_t i = spot.first_sample; i < spot.first_sample + count; ++i) {
     double weight = 1;
     for (std::size_t j = spot.first_sample; j < spot.first_sample + count; ++j)
-      if (j != i)
-        weight *= (spot.depth - samples_[j].depth) / (samples_[i].depth - samples_[j].depth);
+      if (j != i) weight *= (spot.depth - samples_[j].depth) / (samples_[i].depth - samples_[j].depth);
     spot.weights.push_back(weight);
   }
 }

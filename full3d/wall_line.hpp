@@ -51,8 +51,8 @@ class WallLine {
   WallStrain mirrored(WallStrain strain, int component) const;
 
   const Setup& setup_;
-  double angle_;                ///< within the part that is meshed
-  bool turned_x_, turned_y_;    ///< the line is the mirror image of that at angle_
+  double angle_;                  ///< within the part that is meshed
+  bool turned_x_, turned_y_;      ///< the line is the mirror image of that at angle_
   bool on_x_plane_, on_y_plane_;  ///< it lies in a plane that the vessel is cut along
   std::vector<Reading> samples_;
   std::vector<Spot> spots_;

@@ -87,7 +87,8 @@ struct Sample {
 
 /// An empty table with the columns of observables.csv.
 Table standard_table();
-/// Appends one row to a table made by standard_table.
+/// Appends one row to a table made by standard_table; columns that were added after those are left to the
+/// caller.
 void append(Table& table, const Sample& sample);
 
 /// Values at one place in the wall at mid-length and one of the scene's output.profile_times.

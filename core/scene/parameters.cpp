@@ -267,9 +267,11 @@ std::vector<Parameter> declare() {
              "bubble, the paper's linear ones with a bubble in the velocity (triangles)."));
   all.push_back(choice("mesh.cell", "quadrilateral", {"quadrilateral", "triangle"},
                        "Cells of the mesh that is made of a cylinder; bubble makes triangles."));
-  for (const auto& [key, where] : {std::pair{"mesh.wall_cells", "through the wall"},
-                                   std::pair{"mesh.blood_cells", "from the axis (3D: from the core of the lumen's mesh, of half the radius) to the wall"},
-                                   std::pair{"mesh.axial_cells", "along the artery, an even number"}})
+  for (const auto& [key, where] :
+       {std::pair{"mesh.wall_cells", "through the wall"},
+        std::pair{"mesh.blood_cells",
+                  "from the axis (3D: from the core of the lumen's mesh, of half the radius) to the wall"},
+        std::pair{"mesh.axial_cells", "along the artery, an even number"}})
     all.push_back({key,
                    Kind::integer,
                    "1",
@@ -310,8 +312,8 @@ std::vector<Parameter> declare() {
   all.push_back({"solver.options",
                  Kind::text,
                  "",
-                 std::string(),
-                 "",
+                 {},
+                 "none",
                  {},
                  {},
                  "PETSc options of the 3D tier, such as \"-ksp_rtol 1e-8\", over those of solver.method."});
