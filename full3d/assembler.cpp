@@ -30,7 +30,7 @@ Assembler::Assembler(const Problem& problem, const Ranks& ranks, SolverChoice ch
       layout_(layout_of(problem)),
       share_(problem, layout_, ranks, std::move(choice)),
       announcer_(std::move(announcer)),
-      all_(cell_work(problem, layout_, all_cells_of(problem.mesh), 1)) {
+      all_(cell_work(problem, layout_, all_cells_of(problem.mesh), 1, false)) {
   if (!announcer_ && ranks.size() > 1) throw std::logic_error("Assembler: the other ranks are not told");
 }
 

@@ -8,6 +8,7 @@
 #include "core/coupled/numbers.hpp"
 #include "core/coupled/openings.hpp"
 #include "core/threads.hpp"
+#include "full3d/condensation.hpp"
 #include "full3d/tables.hpp"
 
 namespace tunica::full3d {
@@ -34,7 +35,8 @@ class Work final : public CellWork {
   using CellNumbers = coupled::Numbers<Frame, Width>;
   using SideNumbers = coupled::Numbers<Frame, SideWidth>;
 
-  Work(const Problem& problem, const Layout& layout, const std::vector<int>& cells, int threads)
+  Work(const Problem& problem, const Layout& layout, const std::vector<int>& cells, int threads,
+       bool condense)
       : problem_(problem), layout_(layout), tables_(problem), threads_(threads) {
     const Mesh& mesh = problem.mesh;
     const Element element = problem.discretisation.element;
@@ -55,6 +57,10 @@ class Work final : public CellWork {
         nodes.pressure.push_back(mesh.node(cell, Basis::linear, k));
       blood_.push_back(std::move(nodes));
     }
+    if (condense && element == Element::bubble)
+      for (const Nodes& cell : blood_)
+        bubbles_.emplace_back(coupled::blood_numbers<Frame, Width>(layout_, cell.fields()),
+                              shape_count(mesh.shape, Basis::linear));
     const bool coupled_parts = mesh.has(Part::blood) && mesh.has(Part::wall);
     for (const Face& face : mesh.faces) {
       if (!mine[face.cell]) continue;
@@ -123,8 +129,11 @@ class Work final : public CellWork {
     const auto note = [&](int row, int column) {
       if (row >= 0 && column >= 0) places.push_back({row, column});
     };
-    for (const Nodes& cell : blood_)
-      coupled::visit_places<BloodTangent>(coupled::blood_numbers<Frame, Width>(layout_, cell.fields()), note);
+    for (const auto& bubble : bubbles_) bubble.visit_places(note);
+    if (bubbles_.empty())
+      for (const Nodes& cell : blood_)
+        coupled::visit_places<BloodTangent>(coupled::blood_numbers<Frame, Width>(layout_, cell.fields()),
+                                            note);
     for (const Nodes& cell : wall_)
       coupled::visit_places<WallTangent>(coupled::wall_numbers<Frame, Width>(layout_, cell.displacement),
                                          note);
@@ -137,24 +146,36 @@ class Work final : public CellWork {
     return places;
   }
 
-  void tangent(const LoadedStage& at, std::span<const double> y, std::span<double> values) const override {
+  void tangent(const LoadedStage& at, std::span<const double> y, std::span<double> values) override {
     const double c = at.stage.coefficient;
     double* next = values.data();
     const auto put = [&](int row, int column, double value) {
       if (row >= 0 && column >= 0) *next++ = value;
     };
-    in_batches<BloodTangent>(
+    struct BloodEntries {
+      BloodTangent tangent;
+      std::vector<double> condensed;
+    };
+    const bool condenses = !bubbles_.empty();
+    in_batches<BloodEntries>(
         blood_, tangent_batch,
-        [&](const Nodes& cell, BloodTangent& result) {
+        [&](const Nodes& cell, BloodEntries& result) {
           static thread_local std::vector<typename Tables<Width, SideWidth>::BloodPoint> points;
           tables_.blood(cell.cell, points);
           const auto nodes = coupled::blood_nodes<Frame, Width>(layout_, cell.fields(), at.stage, y);
           const auto parameters = blood_parameters(points, at.stage);
-          for (const auto& point : points) kernel::add_blood_tangent(parameters, point, nodes, result);
+          for (const auto& point : points)
+            kernel::add_blood_tangent(parameters, point, nodes, result.tangent);
+          if (condenses)
+            bubbles_[&cell - blood_.data()].take(result.tangent, c,
+                                                 [&](double entry) { result.condensed.push_back(entry); });
         },
-        [&](const Nodes& cell, const BloodTangent& result) {
-          coupled::visit_entries(result, coupled::blood_numbers<Frame, Width>(layout_, cell.fields()), c,
-                                 put);
+        [&](const Nodes& cell, const BloodEntries& result) {
+          if (condenses)
+            next = std::copy(result.condensed.begin(), result.condensed.end(), next);
+          else
+            coupled::visit_entries(result.tangent,
+                                   coupled::blood_numbers<Frame, Width>(layout_, cell.fields()), c, put);
         });
     in_batches<WallTangent>(
         wall_, tangent_batch,
@@ -180,6 +201,19 @@ class Work final : public CellWork {
       coupled::visit_entries(result, n, c, put);
       visit_scalars(side, n, result, c, put);
     }
+  }
+
+  std::vector<int> condensed() const override {
+    std::vector<int> unknowns;
+    for (const auto& bubble : bubbles_)
+      unknowns.insert(unknowns.end(), bubble.inner().begin(), bubble.inner().end());
+    return unknowns;
+  }
+  void condense(std::span<const double> right, std::span<double> change) const override {
+    for (const auto& bubble : bubbles_) bubble.condense(right, change);
+  }
+  void recover(std::span<const double> right, std::span<double> solution) const override {
+    for (const auto& bubble : bubbles_) bubble.recover(right, solution);
   }
 
   void add_loads(double time, std::span<double> residual) const override {
@@ -328,17 +362,18 @@ class Work final : public CellWork {
   int threads_;
   std::vector<Nodes> blood_, wall_;
   std::vector<Side> sides_;
+  std::vector<CondensedCell<Frame, Width>> bubbles_;  ///< of the blood cells
 };
 
 }  // namespace
 
 std::unique_ptr<CellWork> cell_work(const Problem& problem, const Layout& layout,
-                                    const std::vector<int>& cells, int threads) {
+                                    const std::vector<int>& cells, int threads, bool condense) {
   const bool quadratic = problem.discretisation.element == Element::quadratic;
   if (problem.mesh.shape == Shape::hexahedron && quadratic)
-    return std::make_unique<Work<28, 12>>(problem, layout, cells, threads);
-  if (quadratic) return std::make_unique<Work<12, 8>>(problem, layout, cells, threads);
-  return std::make_unique<Work<8, 4>>(problem, layout, cells, threads);
+    return std::make_unique<Work<28, 12>>(problem, layout, cells, threads, condense);
+  if (quadratic) return std::make_unique<Work<12, 8>>(problem, layout, cells, threads, condense);
+  return std::make_unique<Work<8, 4>>(problem, layout, cells, threads, condense);
 }
 
 double relative_cost(const Problem& problem, int cell) {

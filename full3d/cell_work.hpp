@@ -32,11 +32,17 @@ class CellWork {
   /// Adds to `residual` (all unknowns). Cells that are turned inside out add nothing of use.
   virtual LeastJacobian residual(const LoadedStage& stage, std::span<const double> y,
                                  std::span<double> residual) const = 0;
-  /// The places of the derivative's entries; places may repeat.
+  /// The places of the derivative's entries; places may repeat. Those of a bubble are left out: it is
+  /// condensed.
   virtual std::vector<MatrixPlace> pattern() const = 0;
-  /// The entries, in the order of pattern().
-  virtual void tangent(const LoadedStage& stage, std::span<const double> y,
-                       std::span<double> values) const = 0;
+  /// The entries, in the order of pattern(). Keeps what condense() and recover() need.
+  virtual void tangent(const LoadedStage& stage, std::span<const double> y, std::span<double> values) = 0;
+  /// Unknowns of the cells' bubbles, which the derivative leaves out.
+  virtual std::vector<int> condensed() const = 0;
+  /// Adds what the condensed unknowns' rows of a right-hand side are to the other rows to `change`.
+  virtual void condense(std::span<const double> right, std::span<double> change) const = 0;
+  /// Sets the condensed unknowns of a solution from the others.
+  virtual void recover(std::span<const double> right, std::span<double> solution) const = 0;
   /// Adds the loads of Conditions::loads at a time, with their sign in the residual.
   virtual void add_loads(double time, std::span<double> residual) const = 0;
   /// Flow out through a boundary of the blood, cm3/s.
@@ -45,10 +51,10 @@ class CellWork {
   virtual void add_volumes(Part part, std::span<double> volumes) const = 0;
 };
 
-/// Work on the cells of these indices, on so many threads; results do not depend on their number. Problem
-/// and layout must outlive it.
+/// Work on the cells of these indices, on so many threads; results do not depend on their number. With
+/// `condense` bubbles are condensed. Problem and layout must outlive it.
 std::unique_ptr<CellWork> cell_work(const Problem& problem, const Layout& layout,
-                                    const std::vector<int>& cells, int threads);
+                                    const std::vector<int>& cells, int threads, bool condense);
 
 /// Cost of a cell's derivative, relative to that of a blood cell, to share cells out by.
 double relative_cost(const Problem& problem, int cell);

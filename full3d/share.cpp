@@ -18,7 +18,8 @@ Share::Share(const Problem& problem, const Layout& layout, const Ranks& ranks, S
   std::vector<int> mine;
   for (int cell = 0; cell < static_cast<int>(owner.size()); ++cell)
     if (owner[cell] == ranks.rank()) mine.push_back(cell);
-  work_ = cell_work(problem, layout, mine, std::max(1, available_threads() / ranks.on_machine()));
+  work_ = cell_work(problem, layout, mine, std::max(1, available_threads() / ranks.on_machine()),
+                    choice_.condense);
   share_rows(owner);
 }
 
@@ -43,12 +44,25 @@ void Share::share_rows(const std::vector<int>& owner_of_cell) {
       const int u = layout_.unknown(layout_.pressure(node));
       if (u >= 0) owner_of_unknown[u] = owner[node];
     }
-  for (const int rank : owner_of_unknown) ++counts_[rank];
+  // A bubble's unknowns have no rows; its node is of one cell alone.
+  const bool bubble = choice_.condense && problem_.discretisation.element == Element::bubble;
+  if (bubble)
+    for (int cell = 0; cell < static_cast<int>(mesh.cells.size()); ++cell) {
+      if (mesh.cells[cell].part != Part::blood) continue;
+      const int node =
+          mesh.node(cell, Basis::linear_bubble, element::solid::shape_count(mesh.shape, Basis::linear));
+      for (int c = 0; c < layout_.components(); ++c)
+        owner_of_unknown[layout_.unknown(layout_.velocity(node, c))] = -1;
+    }
+  condenses_ = bubble;
+  for (const int rank : owner_of_unknown)
+    if (rank >= 0) ++counts_[rank];
   offsets_.assign(ranks_.size(), 0);
   for (int r = 1; r < ranks_.size(); ++r) offsets_[r] = offsets_[r - 1] + counts_[r - 1];
   std::vector<int> next = offsets_;
-  petsc_index_.resize(layout_.unknowns());
-  for (int u = 0; u < layout_.unknowns(); ++u) petsc_index_[u] = next[owner_of_unknown[u]]++;
+  petsc_index_.assign(layout_.unknowns(), -1);
+  for (int u = 0; u < layout_.unknowns(); ++u)
+    if (owner_of_unknown[u] >= 0) petsc_index_[u] = next[owner_of_unknown[u]]++;
 }
 
 LeastJacobian Share::residual(const LoadedStage& stage, std::span<const double> y,
@@ -84,7 +98,7 @@ void Share::make_matrix() {
   }
   values_.resize(places.size());
   places = {};
-  const PetscInt local = counts_[ranks_.rank()], all = layout_.unknowns();
+  const PetscInt local = counts_[ranks_.rank()], all = PETSC_DETERMINE;
   check(MatCreate(ranks_.communicator(), matrix_.put()), "MatCreate");
   check(MatSetSizes(matrix_.get(), local, local, all, all), "MatSetSizes");
   check(MatSetType(matrix_.get(), MATAIJ), "MatSetType");
@@ -125,11 +139,37 @@ bool Share::factorise(const LoadedStage& stage, std::span<const double> y) {
 }
 
 bool Share::solve(std::span<double> right_hand_side) {
+  if (!condenses_) return solve_rows(right_hand_side);
+  std::vector<double> right(right_hand_side.begin(), right_hand_side.end());
+  right.resize(layout_.unknowns());
+  ranks_.broadcast(right);
+  std::vector<double> change(right.size(), 0.0), solution = right;
+  work_->condense(right, change);
+  ranks_.sum_to_leader(change);
+  for (std::size_t u = 0; u < change.size(); ++u) solution[u] += change[u];
+  const bool solved = solve_rows(solution);
+  ranks_.broadcast(solution);
+  std::vector<double> inner = solution;
+  work_->recover(right, inner);
+  // Each bubble is set on one rank: the others add nothing to it.
+  for (std::size_t u = 0; u < inner.size(); ++u)
+    change[u] = petsc_index_[u] < 0 ? inner[u] - solution[u] : 0.0;
+  ranks_.sum_to_leader(change);
+  if (ranks_.leads())
+    for (std::size_t u = 0; u < solution.size(); ++u) right_hand_side[u] = solution[u] + change[u];
+  return solved;
+}
+
+bool Share::solve_rows(std::span<double> right_hand_side) {
   const int own = counts_[ranks_.rank()];
   std::vector<double> ordered;
+  const auto rows = [&](const auto& visit) {
+    for (std::size_t u = 0; u < right_hand_side.size(); ++u)
+      if (petsc_index_[u] >= 0) visit(right_hand_side[u], ordered[petsc_index_[u]]);
+  };
   if (ranks_.leads()) {
-    ordered.resize(right_hand_side.size());
-    for (std::size_t u = 0; u < right_hand_side.size(); ++u) ordered[petsc_index_[u]] = right_hand_side[u];
+    ordered.resize(offsets_.back() + counts_.back());
+    rows([](double value, double& row) { row = value; });
   }
   PetscScalar* local = nullptr;
   check(VecGetArray(right_.get(), &local), "VecGetArray");
@@ -147,8 +187,7 @@ bool Share::solve(std::span<double> right_hand_side) {
   MPI_Gatherv(found, own, MPI_DOUBLE, ordered.data(), counts_.data(), offsets_.data(), MPI_DOUBLE, 0,
               ranks_.communicator());
   check(VecRestoreArrayRead(solution_.get(), &found), "VecRestoreArrayRead");
-  if (ranks_.leads())
-    for (std::size_t u = 0; u < right_hand_side.size(); ++u) right_hand_side[u] = ordered[petsc_index_[u]];
+  if (ranks_.leads()) rows([](double& value, double row) { value = row; });
   return reason > 0;
 }
 

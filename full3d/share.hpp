@@ -16,6 +16,7 @@ namespace tunica::full3d {
 struct SolverChoice {
   std::string name = "direct";
   std::string options;
+  bool condense = true;  ///< bubbles, cell by cell
 };
 
 /// What one rank does for the coupled equations: its cells, its rows of the matrix and its part of the
@@ -38,7 +39,7 @@ class Share {
   double entries() const { return entries_; }
   long iterations() const { return iterations_; }  ///< of Krylov methods, in all
   const CellWork& work() const { return *work_; }
-  /// Row or column of PETSc's matrix of an unknown.
+  /// Row or column of PETSc's matrix of an unknown, -1 where it is condensed.
   int petsc_index(int unknown) const { return petsc_index_[unknown]; }
   /// Computes the matrix without preparing solutions.
   void assemble(const LoadedStage& stage, std::span<const double> y);
@@ -46,6 +47,8 @@ class Share {
 
  private:
   void share_rows(const std::vector<int>& owner_of_cell);
+  /// The same without condensed unknowns.
+  bool solve_rows(std::span<double> right_hand_side);
   void make_matrix();
   void make_solver();
 
@@ -55,6 +58,7 @@ class Share {
   SolverChoice choice_;
   std::unique_ptr<CellWork> work_;
   std::vector<int> petsc_index_;       ///< by unknown
+  bool condenses_ = false;             ///< on any rank
   std::vector<int> counts_, offsets_;  ///< rows by rank
   OwnedMatrix matrix_;
   OwnedSolver solver_;
