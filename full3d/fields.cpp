@@ -19,36 +19,55 @@ using element::solid::node_position;
 using element::solid::shape_count;
 using observables::FieldSeries;
 
-double volume(const std::vector<int>& corners) {
-  const auto at = [&](int k) { return node_position(Shape::tetrahedron, Basis::quadratic, corners[k]); };
-  const auto edge = [&](int k) {
-    const auto a = at(0), b = at(k);
-    return Vector<double>{b[0] - a[0], b[1] - a[1], b[2] - a[2]};
-  };
-  return dot(cross(edge(1), edge(2)), edge(3));
+using element::solid::Local;
+
+/// How a cell is shown: points in it, and the corners of the picture's cells among them in the order of VTK.
+struct Pattern {
+  std::vector<Local> points;
+  std::vector<std::vector<int>> cells;
+};
+
+Pattern hexahedra(int across, int along) {
+  Pattern pattern;
+  const int n = across + 1;
+  const auto node = [&](int i, int j, int k) { return i + n * (j + n * k); };
+  for (int k = 0; k <= along; ++k)
+    for (int j = 0; j <= across; ++j)
+      for (int i = 0; i <= across; ++i)
+        pattern.points.push_back({2.0 * i / across - 1, 2.0 * j / across - 1, 2.0 * k / along - 1});
+  for (int k = 0; k < along; ++k)
+    for (int j = 0; j < across; ++j)
+      for (int i = 0; i < across; ++i)
+        pattern.cells.push_back({node(i, j, k), node(i + 1, j, k), node(i + 1, j + 1, k), node(i, j + 1, k),
+                                 node(i, j, k + 1), node(i + 1, j, k + 1), node(i + 1, j + 1, k + 1),
+                                 node(i, j + 1, k + 1)});
+  return pattern;
 }
 
-/// Corners of the cells that a cell is shown as, in the order of VTK, by the numbers of its nodes.
-std::vector<std::vector<int>> shown_cells(Shape shape, bool quadratic) {
-  std::vector<std::vector<int>> shown;
-  if (shape == Shape::hexahedron) {
-    const int parts = quadratic ? 2 : 1, nodes = parts + 1;
-    const auto node = [&](int i, int j, int k) { return i + nodes * (j + nodes * k); };
-    for (int k = 0; k < parts; ++k)
-      for (int j = 0; j < parts; ++j)
-        for (int i = 0; i < parts; ++i)
-          shown.push_back({node(i, j, k), node(i + 1, j, k), node(i + 1, j + 1, k), node(i, j + 1, k),
-                           node(i, j, k + 1), node(i + 1, j, k + 1), node(i + 1, j + 1, k + 1),
-                           node(i, j + 1, k + 1)});
-    return shown;
-  }
-  if (!quadratic) return {{0, 1, 2, 3}};
+Pattern tetrahedra(bool quadratic) {
+  Pattern pattern;
+  const Basis basis = quadratic ? Basis::quadratic : Basis::linear;
+  for (int k = 0; k < shape_count(Shape::tetrahedron, basis); ++k)
+    pattern.points.push_back(node_position(Shape::tetrahedron, basis, k));
+  pattern.cells = {{0, 1, 2, 3}};
   // Four at the corners, and the octahedron between them about the line from the middle of 02 to that of 13.
-  shown = {{0, 4, 5, 6}, {4, 1, 7, 8}, {5, 7, 2, 9}, {6, 8, 9, 3},
-           {5, 8, 4, 6}, {5, 8, 6, 9}, {5, 8, 9, 7}, {5, 8, 7, 4}};
-  for (auto& corners : shown)
-    if (volume(corners) < 0) std::swap(corners[0], corners[1]);
-  return shown;
+  if (quadratic)
+    pattern.cells = {{0, 4, 5, 6}, {4, 1, 7, 8}, {5, 7, 2, 9}, {6, 8, 9, 3},
+                     {5, 8, 4, 6}, {5, 8, 6, 9}, {5, 8, 9, 7}, {5, 8, 7, 4}};
+  for (auto& corners : pattern.cells) {
+    const auto edge = [&](int k) {
+      const Local &a = pattern.points[corners[0]], &b = pattern.points[corners[k]];
+      return Vector<double>{b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+    };
+    if (dot(cross(edge(1), edge(2)), edge(3)) < 0) std::swap(corners[0], corners[1]);
+  }
+  return pattern;
+}
+
+Pattern pattern_of(const Problem& problem) {
+  const bool quadratic = problem.discretisation.element == Element::quadratic;
+  if (problem.mesh.shape == Shape::tetrahedron) return tetrahedra(quadratic);
+  return quadratic ? hexahedra(2, 4) : hexahedra(1, 1);
 }
 
 void put(std::vector<float>& values, double value) {
@@ -69,58 +88,15 @@ FieldSeries named(const char* name, Shape shape) {
 
 }  // namespace
 
-Fields::Fields(const Setup& setup, const Assembler& assembler, int threads)
-    : setup_(setup),
-      layout_(assembler.layout()),
-      basis_(displacement_basis(setup.problem.discretisation.element)),
-      shown_(shown_cells(setup.problem.mesh.shape, basis_ == Basis::quadratic)) {
-  add_blood();
-  add_wall(threads);
-  // See Sector: the planes of symmetry are x = 0 of a quarter, and y = 0.
-  for (FieldSeries* series : {&blood_, &wall_})
-    series->mesh.mirrored = {setup.sector == Sector::quarter, setup.sector != Sector::full};
-}
-
-void Fields::show(int cell, std::span<const int> points, FieldSeries& series) const {
-  for (const auto& corners : shown_) {
-    for (const int corner : corners) series.mesh.cells.push_back(points[corner]);
-    for (auto& field : series.cell_fields) field.values.push_back(setup_.problem.mesh.cells[cell].layer);
-  }
-}
-
-void Fields::add_blood() {
-  const Mesh& mesh = setup_.problem.mesh;
-  blood_ = named("blood", mesh.shape);
+Fields::Fields(const Setup& setup, const Assembler& assembler, int threads) : setup_(setup) {
+  const Problem& problem = setup.problem;
+  const std::array<bool, 2> mirrored{setup.sector == Sector::quarter, setup.sector != Sector::full};
+  blood_ = named("blood", problem.mesh.shape);
+  blood_.mesh.mirrored = mirrored;
   blood_.point_fields.push_back({"velocity", "cm/s", 3});
   blood_.point_fields.push_back({"pressure", "dyn/cm2", 1});
-  std::vector<int> index(mesh.points.size(), -1);
-  for (int cell = 0; cell < static_cast<int>(mesh.cells.size()); ++cell) {
-    if (mesh.cells[cell].part != Part::blood) continue;
-    std::vector<int> points;
-    for (int k = 0; k < shape_count(mesh.shape, basis_); ++k) {
-      const int node = mesh.node(cell, basis_, k);
-      int& point = index[node];
-      if (point < 0) {
-        point = static_cast<int>(blood_points_.size());
-        BloodPoint made{node, {}};
-        // The pressure is linear: at a middle it is the mean over the corners around it.
-        const auto linear =
-            element::solid::shapes_at(mesh.shape, Basis::linear, node_position(mesh.shape, basis_, k));
-        for (int c = 0; c < linear.count; ++c)
-          if (linear.value[c] > 1e-6) made.corners.push_back(mesh.node(cell, Basis::linear, c));
-        blood_points_.push_back(std::move(made));
-        blood_.mesh.points.push_back(mesh.points[node]);
-      }
-      points.push_back(point);
-    }
-    show(cell, points, blood_);
-  }
-}
-
-void Fields::add_wall(int threads) {
-  const Problem& problem = setup_.problem;
-  const Mesh& mesh = problem.mesh;
-  wall_ = named("wall", mesh.shape);
+  wall_ = named("wall", problem.mesh.shape);
+  wall_.mesh.mirrored = mirrored;
   wall_.cell_fields.push_back({"layer", "1", {}});
   for (const char* name : {"von_mises", "circumferential_stress", "radial_stress", "axial_stress"})
     wall_.point_fields.push_back({name, "dyn/cm2", 1});
@@ -134,66 +110,79 @@ void Fields::add_wall(int threads) {
     wall_.point_fields.push_back({"fiber_stretch" + which, "1", 1});
     wall_.point_fields.push_back({"fiber_direction" + which, "1", 3});
   }
+  blood_points_ = points_of(Part::blood, blood_);
+  wall_points_ = points_of(Part::wall, wall_);
+  blood_probe_ = blood_probe(problem, assembler.layout(), blood_points_.places);
+  wall_probe_ = wall_probe(problem, assembler.layout(), wall_points_.places, false, threads);
+}
 
-  std::map<std::pair<int, int>, int> index;  // by node and layer
-  std::vector<Place> places;
+Fields::Points Fields::points_of(Part part, FieldSeries& series) const {
+  const Mesh& mesh = setup_.problem.mesh;
+  const Pattern pattern = pattern_of(setup_.problem);
+  // Points that cells share coincide but for rounding.
+  const double grid = 1e-6 * setup_.shape.thickness;
+  std::map<std::array<long, 4>, int> index;
+  std::vector<int> places_at;
+  Points points;
   for (int cell = 0; cell < static_cast<int>(mesh.cells.size()); ++cell) {
-    if (mesh.cells[cell].part != Part::wall) continue;
+    if (mesh.cells[cell].part != part) continue;
     const int layer = mesh.cells[cell].layer;
-    std::vector<int> points;
-    for (int k = 0; k < shape_count(mesh.shape, basis_); ++k) {
-      const int node = mesh.node(cell, basis_, k);
-      const auto [entry, is_new] = index.try_emplace({node, layer}, static_cast<int>(wall_points_.size()));
+    std::vector<int> of_cell;
+    for (const Local& local : pattern.points) {
+      const Point x = image(mesh, cell, local).point;
+      const std::array<long, 4> key{std::lround(x[0] / grid), std::lround(x[1] / grid),
+                                    std::lround(x[2] / grid), layer};
+      const auto [entry, is_new] = index.try_emplace(key, static_cast<int>(points.layers.size()));
       if (is_new) {
-        wall_points_.push_back({node, layer, 0});
-        wall_.mesh.points.push_back(mesh.points[node]);
+        points.layers.push_back(layer);
+        places_at.push_back(0);
+        series.mesh.points.push_back(x);
       }
-      ++wall_points_[entry->second].places;
-      point_of_place_.push_back(entry->second);
-      places.push_back({cell, node_position(mesh.shape, basis_, k)});
-      points.push_back(entry->second);
+      ++places_at[entry->second];
+      points.point_of_place.push_back(entry->second);
+      points.places.push_back({cell, local});
+      of_cell.push_back(entry->second);
     }
-    show(cell, points, wall_);
+    for (const auto& corners : pattern.cells) {
+      for (const int corner : corners) series.mesh.cells.push_back(of_cell[corner]);
+      for (auto& field : series.cell_fields) field.values.push_back(layer);
+    }
   }
-  probe_ = wall_probe(problem, layout_, std::move(places), false, threads);
+  for (const int point : points.point_of_place) points.share_of_place.push_back(1.0 / places_at[point]);
+  return points;
 }
 
 std::vector<FieldSeries> Fields::empty_series() const {
   std::vector<FieldSeries> all;
-  if (!blood_points_.empty()) all.push_back(blood_);
-  if (!wall_points_.empty()) all.push_back(wall_);
+  if (!blood_points_.layers.empty()) all.push_back(blood_);
+  if (!wall_points_.layers.empty()) all.push_back(wall_);
   return all;
 }
 
 std::vector<std::vector<float>> Fields::blood_values(std::span<const double> y) const {
+  // What is continuous is the same in all cells that meet at a point.
+  std::vector<BloodSample> at_points(blood_points_.layers.size());
+  const auto read = blood_probe_->samples(y);
+  for (std::size_t k = 0; k < read.size(); ++k) at_points[blood_points_.point_of_place[k]] = read[k];
   std::vector<float> displacement, velocity, pressure;
-  for (const BloodPoint& point : blood_points_) {
-    Vector<double> d, v;
-    for (int c = 0; c < 3; ++c) {
-      d[c] = y[layout_.displacement(point.node, c)];
-      v[c] = y[layout_.velocity(point.node, c)];
-    }
-    put(displacement, d);
-    put(velocity, v);
-    double sum = 0;
-    for (const int corner : point.corners) sum += y[layout_.pressure(corner)];
-    put(pressure, sum / static_cast<double>(point.corners.size()));
+  for (const BloodSample& sample : at_points) {
+    put(displacement, sample.displacement);
+    put(velocity, sample.velocity);
+    put(pressure, sample.pressure);
   }
   return {std::move(displacement), std::move(velocity), std::move(pressure)};
 }
 
 std::vector<std::vector<float>> Fields::wall_values(std::span<const double> y) const {
   const Problem& problem = setup_.problem;
-  std::vector<WallStrain> strains(wall_points_.size());
-  const auto read = probe_->strains(y);
-  for (std::size_t k = 0; k < read.size(); ++k) {
-    const int point = point_of_place_[k];
-    strains[point].add(1.0 / wall_points_[point].places, read[k]);
-  }
+  std::vector<WallStrain> strains(wall_points_.layers.size());
+  const auto read = wall_probe_->strains(y);
+  for (std::size_t k = 0; k < read.size(); ++k)
+    strains[wall_points_.point_of_place[k]].add(wall_points_.share_of_place[k], read[k]);
   std::vector<std::vector<float>> values(wall_.point_fields.size());
-  for (std::size_t i = 0; i < wall_points_.size(); ++i) {
-    const auto& law = problem.laws[wall_points_[i].layer];
-    const auto axes = problem.directions(problem.mesh.points[wall_points_[i].node]);
+  for (std::size_t i = 0; i < strains.size(); ++i) {
+    const auto& law = problem.laws[wall_points_.layers[i]];
+    const auto axes = problem.directions(wall_.mesh.points[i]);
     const Vector<double> radial = cross(axes.circumferential, axes.axial);
     const Tensor<double> cauchy = coupled::cauchy(law, strains[i], axes);
     const auto normal = [&](const Vector<double>& n) { return dot(n, cauchy * n); };

@@ -12,7 +12,8 @@
 
 namespace tunica::full3d {
 
-/// The unloaded vessel as pictures. Quadratic cells are shown as eight, so that their sides bend.
+/// The unloaded vessel as pictures. Quadratic cells are shown as eight tetrahedra or, as they are long, as 2
+/// x 2 x 4 hexahedra, so that their sides bend.
 ///
 /// Series "blood": displacement of the mesh, velocity, pressure. Series "wall": cell field "layer",
 /// displacement; the Cauchy stress as von_mises, circumferential_stress, radial_stress, axial_stress, of the
@@ -29,29 +30,21 @@ class Fields final : public coupled::Picturing {
               std::span<observables::FieldSeries> series) const override;
 
  private:
-  struct BloodPoint {
-    int node;
-    std::vector<int> corners;  ///< whose pressures' mean is that at the node
+  /// Points of a series: where cells of a layer meet they share them.
+  struct Points {
+    std::vector<int> layers;             ///< by point
+    std::vector<int> point_of_place;     ///< of the probe
+    std::vector<double> share_of_place;  ///< in the mean at its point
+    std::vector<Place> places;
   };
-  struct WallPoint {
-    int node;
-    int layer;
-    int places;  ///< in the layer's cells that meet there
-  };
-  void add_blood();
-  void add_wall(int threads);
-  void show(int cell, std::span<const int> points, observables::FieldSeries& series) const;
+  Points points_of(Part part, observables::FieldSeries& series) const;
   std::vector<std::vector<float>> blood_values(std::span<const double> y) const;
   std::vector<std::vector<float>> wall_values(std::span<const double> y) const;
 
   const Setup& setup_;
-  const Layout& layout_;
-  Basis basis_;
-  std::vector<std::vector<int>> shown_;  ///< cells of the picture that a cell is shown as, by its nodes
-  std::vector<BloodPoint> blood_points_;
-  std::vector<WallPoint> wall_points_;
-  std::vector<int> point_of_place_;  ///< of the probe
-  std::unique_ptr<WallProbe> probe_;
+  Points blood_points_, wall_points_;
+  std::unique_ptr<BloodProbe> blood_probe_;
+  std::unique_ptr<WallProbe> wall_probe_;
   std::vector<int> families_;  ///< that are shown, of any layer
   observables::FieldSeries blood_, wall_;
 };

@@ -114,43 +114,38 @@ kernel::Lifted<Frame, Width> lifts_at(const Problem& problem, const Place& place
 
 class BloodProbeOf final : public BloodProbe {
  public:
-  BloodProbeOf(const Problem& problem, const Layout& layout, const std::vector<Place>& places)
-      : layout_(layout) {
-    const Element element = problem.discretisation.element;
-    const Mesh& mesh = problem.mesh;
-    for (const Place& place : places) {
-      spots_.push_back({cell_nodes(mesh, place.cell, displacement_basis(element)),
-                        cell_nodes(mesh, place.cell, velocity_basis(element)),
-                        cell_nodes(mesh, place.cell, Basis::linear),
-                        lifts_at<28>(problem, place, displacement_basis(element)),
-                        lifts_at<28>(problem, place, velocity_basis(element)),
-                        lifts_at<28>(problem, place, Basis::linear)});
-    }
-  }
+  BloodProbeOf(const Problem& problem, const Layout& layout, std::vector<Place> places)
+      : problem_(problem), layout_(layout), places_(std::move(places)) {}
 
   std::vector<BloodSample> samples(std::span<const double> y) const override {
+    constexpr int width = 28;
+    const Mesh& mesh = problem_.mesh;
+    const Basis moving = displacement_basis(problem_.discretisation.element),
+                flowing = velocity_basis(problem_.discretisation.element);
     std::vector<BloodSample> samples;
-    for (const Spot& spot : spots_) {
-      const auto d = coupled::nodal_displacement<Frame, 28>(layout_, spot.displaced, y);
-      const auto v = coupled::nodal_velocity<Frame, 28>(layout_, spot.flowing, y);
+    samples.reserve(places_.size());
+    for (const Place& place : places_) {
+      const auto displacement = lifts_at<width>(problem_, place, moving);
+      const auto velocity = lifts_at<width>(problem_, place, flowing);
+      const auto d =
+          coupled::nodal_displacement<Frame, width>(layout_, cell_nodes(mesh, place.cell, moving), y);
+      const auto v = coupled::nodal_velocity<Frame, width>(layout_, cell_nodes(mesh, place.cell, flowing), y);
       BloodSample& sample = samples.emplace_back();
-      sample.displacement = kernel::field_value(spot.displacement, d);
-      sample.displacement_gradient = kernel::field_gradient(spot.displacement, d);
-      sample.velocity = kernel::field_value(spot.velocity, v);
-      sample.velocity_gradient = kernel::field_gradient(spot.velocity, v);
-      for (std::size_t k = 0; k < spot.pressed.size(); ++k)
-        sample.pressure += spot.pressure.lift[0][k] * y[layout_.pressure(spot.pressed[k])];
+      sample.displacement = kernel::field_value(displacement, d);
+      sample.displacement_gradient = kernel::field_gradient(displacement, d);
+      sample.velocity = kernel::field_value(velocity, v);
+      sample.velocity_gradient = kernel::field_gradient(velocity, v);
+      const auto linear = shapes_at(mesh.shape, Basis::linear, place.local);
+      for (int k = 0; k < linear.count; ++k)
+        sample.pressure += linear.value[k] * y[layout_.pressure(mesh.node(place.cell, Basis::linear, k))];
     }
     return samples;
   }
 
  private:
-  struct Spot {
-    std::vector<int> displaced, flowing, pressed;
-    kernel::Lifted<Frame, 28> displacement, velocity, pressure;
-  };
+  const Problem& problem_;
   const Layout& layout_;
-  std::vector<Spot> spots_;
+  std::vector<Place> places_;
 };
 
 }  // namespace
@@ -166,7 +161,7 @@ std::unique_ptr<WallProbe> wall_probe(const Problem& problem, const Layout& layo
 
 std::unique_ptr<BloodProbe> blood_probe(const Problem& problem, const Layout& layout,
                                         std::vector<Place> places) {
-  return std::make_unique<BloodProbeOf>(problem, layout, places);
+  return std::make_unique<BloodProbeOf>(problem, layout, std::move(places));
 }
 
 double mean_pressure(const Problem& problem, const Layout& layout, std::span<const Face> faces,

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace tunica::report {
 
@@ -24,20 +25,26 @@ Span span_of(const std::vector<std::vector<float>>& rows) {
   return span;
 }
 
-Span telling_span(const std::vector<std::vector<float>>& rows) {
+Span telling_span(const std::vector<std::vector<float>>& rows, std::span<const double> weights) {
   constexpr double left_out_each_side = 0.005;
-  std::vector<float> values;
+  std::vector<std::pair<float, double>> values;
+  double sum = 0;
   for (const auto& row : rows)
-    std::copy_if(row.begin(), row.end(), std::back_inserter(values),
-                 [](float v) { return std::isfinite(v); });
+    for (std::size_t k = 0; k < row.size(); ++k) {
+      if (!std::isfinite(row[k])) continue;
+      values.emplace_back(row[k], weights.empty() ? 1.0 : weights[k]);
+      sum += values.back().second;
+    }
   const Span whole = span_of(rows);
   if (values.empty()) return whole;
-  const auto at_share = [&](double share) {
-    const auto place = values.begin() + std::lround(share * static_cast<double>(values.size() - 1));
-    std::nth_element(values.begin(), place, values.end());
-    return static_cast<double>(*place);
+  std::sort(values.begin(), values.end());
+  const auto beyond = [&](auto first, auto last) {
+    double passed = 0;
+    while (first + 1 != last && passed + first->second <= left_out_each_side * sum)
+      passed += (first++)->second;
+    return static_cast<double>(first->first);
   };
-  const Span inner{at_share(left_out_each_side), at_share(1 - left_out_each_side)};
+  const Span inner{beyond(values.begin(), values.end()), beyond(values.rbegin(), values.rend())};
   const double width = inner.highest - inner.lowest;
   return width > 0 && 2 * width < whole.highest - whole.lowest ? inner : whole;
 }

@@ -24,8 +24,10 @@ struct Span {
 Span span_of(const std::vector<std::vector<float>>& rows);
 
 /// The range without that hundredth of the values which is farthest out, when this at least halves it (what
-/// becomes singular at clamped ends would leave the rest in one colour); else the whole range.
-Span telling_span(const std::vector<std::vector<float>>& rows);
+/// becomes singular at clamped ends would leave the rest in one colour); else the whole range. Values count
+/// by the weights of a row's entries, empty for equal ones: where a surface has many points, each has little
+/// area.
+Span telling_span(const std::vector<std::vector<float>>& rows, std::span<const double> weights = {});
 
 /// One row after the other. Throws std::logic_error for other than 1 or 2 bytes.
 Quantised quantise(const std::vector<std::vector<float>>& rows, Span range, int bytes);

@@ -93,6 +93,24 @@ std::vector<float> scalars(const std::vector<float>& values, std::size_t compone
   return made;
 }
 
+/// Share of the surface that belongs to each of its places: a third of the triangles around it.
+std::vector<double> areas(const Surface& surface, const std::vector<float>& points) {
+  std::vector<double> areas(surface.places.size(), 0.0);
+  for (const auto* triangles : {&surface.outer, &surface.section})
+    for (const auto& triangle : *triangles) {
+      std::array<std::array<double, 3>, 2> sides{};
+      for (int s = 0; s < 2; ++s)
+        for (int i = 0; i < 3; ++i)
+          sides[s][i] = points[3 * surface.vertices[triangle[s + 1]] + i] -
+                        points[3 * surface.vertices[triangle[0]] + i];
+      const double area = std::hypot(sides[0][1] * sides[1][2] - sides[0][2] * sides[1][1],
+                                     sides[0][2] * sides[1][0] - sides[0][0] * sides[1][2],
+                                     sides[0][0] * sides[1][1] - sides[0][1] * sides[1][0]);
+      for (const int vertex : triangle) areas[surface.vertices[vertex]] += area / 6;
+    }
+  return areas;
+}
+
 ShownPart shown_part(const FieldSeries& series, double cut) {
   ShownPart part{series.name, series.mesh.mirrored, cut, visible_surface(series.mesh, cut), {}, {}, {}};
   std::vector<float> coordinates;
@@ -200,10 +218,11 @@ nlohmann::ordered_json to_json(const ShownPart& part, std::size_t frames, const 
     json["displacement"] = to_json(quantise(rows, span_of(rows), 2), 2);
   }
   json["fields"] = nlohmann::ordered_json::array();
+  const auto weights = areas(part.surface, part.points);
   for (const Shown& field : part.fields) {
     const Rows rows = thinned(field.rows, frames, detail.stride);
     // With 8 bits all of them serve the colours; values beyond take the last one.
-    const Span colours = telling_span(rows), whole = span_of(rows);
+    const Span colours = telling_span(rows, weights), whole = span_of(rows);
     auto values = to_json(quantise(rows, detail.bytes == 1 ? colours : whole, detail.bytes), detail.bytes);
     values["name"] = field.name;
     values["label"] = field.label;
