@@ -5,101 +5,27 @@
 #include <limits>
 #include <map>
 #include <memory>
-#include <numbers>
-#include <optional>
 #include <type_traits>
 
-#include "axisym/problem.hpp"
-#include "core/quadrature.hpp"
+#include "core/coupled/conditions.hpp"
 #include "tests/support/manufactured.hpp"
 
 /// Motions of a vessel with its blood that solve the coupled equations under loads that follow from them, by
 /// the strong forms, which are written out here. Lengths, stiffnesses and densities are of order one.
-namespace tunica::axisym::mms {
+namespace tunica::mms {
 
 namespace manufactured = test_support::manufactured;
-using Axes = manufactured::Axisymmetric;
+using coupled::Boundary, coupled::Conditions, coupled::InletKind, coupled::OutletCondition,
+    coupled::OutletKind;
 using std::cos;
 using std::sin;
 using std::sqrt;
-
-/// The unloaded vessel, the same for all motions. The interface is at R(z) = radius (1 + bulge sin(2 z)), the
-/// outer surface is like it.
-struct Shape {
-  double radius = 0.6, thickness = 0.3, length = 0.9;
-  double bulge = 0;
-
-  template <class S>
-  S profile(const S& z) const {
-    return 1 + bulge * sin(2.0 * z);
-  }
-  /// Outward normal of the interface and of the outer surface, for blood and wall together.
-  Vector<double> normal(const Vector<double>& x) const {
-    const Dual<double, 1> shape = profile(seed(x[2]));
-    const double slope = x[0] * shape.derivative[0] / shape.value, size = std::hypot(1.0, slope);
-    return {1 / size, 0, -slope / size};
-  }
-};
-
-/// Smooth in space, with strains of up to some 0.3. On the axis r-components are odd in r, all else is even.
-struct SmoothMotion : Shape {
-  /// The motion keeps volumes but for this share, as tissue does whose bulk modulus is the inverse of it.
-  std::optional<double> compressibility;
-  double direction = 1;  ///< -1 turns the flow through the vessel round
-
-  template <class S>
-  Vector<S> displacement(const Vector<S>& x, const S& t) const {
-    const S &r = x[0], &z = x[2];
-    if (!compressibility)
-      return {r * (0.1 + 0.06 * sin(3.0 * t) + 0.12 * cos(2.0 * t) * sin(1.7 * z + 0.4 * r * r)), S(0.0),
-              0.15 * cos(2.5 * t) * sin(1.3 * z) + 0.1 * r * r * cos(2.0 * z + t)};
-    // (r, z) -> (r / sqrt(g'(s)), g(s)) with s = z + shear(r) keeps volumes for any g.
-    const S s = z + 0.2 * cos(2.0 * t) * r * r, phase = 1.7 * s + 2.0 * t;
-    const S slope = 1 + 0.25 * cos(phase);
-    return {r * (1 / sqrt(slope) - 1 + *compressibility * (3 + sin(2.0 * z - t))), S(0.0),
-            s + (0.25 / 1.7) * sin(phase) - z};
-  }
-  /// Velocity of blood beyond that of the motion; vanishes at the interface.
-  template <class S>
-  Vector<S> stream(const Vector<S>& x, const S& t) const {
-    const S &r = x[0], &z = x[2];
-    const S share = r / (radius * profile(z)), inside = 1 - share * share;
-    return {r * inside * (0.6 * cos(3.0 * t) * cos(1.5 * z)), S(0.0),
-            direction * inside * (1.5 + sin(2.0 * t) + 0.4 * cos(t) * sin(2.0 * z + r * r))};
-  }
-  template <class S>
-  S pressure(const Vector<S>& x, const S& t) const {
-    const S &r = x[0], &z = x[2];
-    return 2.0 * cos(1.4 * z) * (1 + 0.5 * sin(3.0 * t)) + r * r * sin(2.0 * z + t);
-  }
-};
-
-/// Quadratic displacement and velocity, linear pressure, and a volume change that is the same everywhere:
-/// quadratic elements hold these fields, and integrate all that follows from them for a neo-Hookean wall,
-/// without error. What is left are errors in time.
-struct PolynomialMotion : Shape {
-  template <class S>
-  Vector<S> displacement(const Vector<S>& x, const S& t) const {
-    const S &r = x[0], &z = x[2];
-    return {r * (0.1 + 0.08 * sin(4.0 * t)), S(0.0), z * (0.05 - 0.1 * cos(3.0 * t)) + 0.1 * sin(3.5 * t)};
-  }
-  template <class S>
-  Vector<S> stream(const Vector<S>& x, const S& t) const {
-    const S &r = x[0], &z = x[2];
-    return {r * (radius - r) * (1 + 0.4 * z) * (0.8 * cos(3.0 * t)), S(0.0),
-            (1 - r * r / (radius * radius)) * (1 + 0.3 * z) * (1.5 + sin(4.0 * t))};
-  }
-  template <class S>
-  S pressure(const Vector<S>& x, const S& t) const {
-    const S &r = x[0], &z = x[2];
-    return 1 + sin(3.0 * t) + z * (cos(4.0 * t) - 2) + 0.5 * r * sin(2.0 * t);
-  }
-};
 
 /// A motion with what follows from it: loads, flows, scalars.
 template <class Motion>
 class Vessel : public Motion {
  public:
+  using Problem = Conditions<Motion::dimension>;
   bool steady = false;  ///< all fields as they are at time 0, with rates of zero
 
   template <class S>
@@ -145,7 +71,7 @@ class Vessel : public Motion {
 
   template <class S>
   Tensor<S> deformation(const Vector<S>& x, const S& t) const {
-    return Tensor<S>::identity() + manufactured::gradient<Axes>(displacement_field(), x, t);
+    return Tensor<S>::identity() + manufactured::gradient<typename Motion::Axes>(displacement_field(), x, t);
   }
 
   /// Of the flow along +z, per unloaded area.
@@ -158,11 +84,9 @@ class Vessel : public Motion {
   template <class S>
   S flow(double z, const S& t) const {
     S sum(0.0);
-    const double edge = Motion::radius * Motion::profile(z);
-    for (const auto& q : gauss_legendre(20)) {
-      const double r = 0.5 * edge * (1 + q.position);
-      sum = sum + (edge * q.weight * std::numbers::pi * r) * flow_density(Vector<S>{S(r), S(0.0), S(z)}, t);
-    }
+    Motion::for_each_in_section(z, [&](const Vector<double>& x, double area) {
+      sum = sum + area * flow_density(Vector<S>{S(x[0]), S(x[1]), S(x[2])}, t);
+    });
     return sum;
   }
   /// Of a Windkessel, such that the pressure before its proximal resistance is outlet_pressure().
@@ -182,8 +106,8 @@ class Vessel : public Motion {
   template <class S>
   Tensor<S> blood_stress(const physics::Blood& blood, const Vector<S>& x, const S& t) const {
     const Tensor<S> f = deformation(x, t), minors = cofactor(f);
-    const Tensor<S> gradient =
-        manufactured::gradient<Axes>(velocity_field(), x, t) * ((1.0 / determinant(f)) * transpose(minors));
+    const Tensor<S> gradient = manufactured::gradient<typename Motion::Axes>(velocity_field(), x, t) *
+                               ((1.0 / determinant(f)) * transpose(minors));
     Tensor<S> sigma = blood.viscosity * (gradient + transpose(gradient));
     const S p = pressure(x, t);
     for (int i = 0; i < 3; ++i) sigma(i, i) = sigma(i, i) - p;
@@ -191,18 +115,19 @@ class Vessel : public Motion {
   }
   template <class S>
   Tensor<S> wall_stress(const wall::Law<double>& law, const Vector<S>& x, const S& t) const {
-    return wall::piola(law, manufactured::gradient<Axes>(displacement_field(), x, t), {{0, 1, 0}, {0, 0, 1}});
+    return wall::piola(law, manufactured::gradient<typename Motion::Axes>(displacement_field(), x, t),
+                       Motion::directions());
   }
 
   /// rho J (dv/dt + grad v (v - w)) - Div P
   Vector<double> blood_force(const physics::Blood& blood, const Vector<double>& x, double t) const {
     const Tensor<double> f = deformation(x, t);
     const double jacobian = determinant(f);
-    const Tensor<double> gradient =
-        manufactured::gradient<Axes>(velocity_field(), x, t) * ((1 / jacobian) * transpose(cofactor(f)));
+    const Tensor<double> gradient = manufactured::gradient<typename Motion::Axes>(velocity_field(), x, t) *
+                                    ((1 / jacobian) * transpose(cofactor(f)));
     const Vector<double> convection = gradient * Motion::stream(x, clock(t));
     const Vector<double> change = manufactured::rate(velocity_field(), x, t);
-    const Vector<double> stress = manufactured::divergence<Axes>(
+    const Vector<double> stress = manufactured::divergence<typename Motion::Axes>(
         [&](const auto& place, const auto& time) { return blood_stress(blood, place, time); }, x, t);
     Vector<double> force{};
     for (int i = 0; i < 3; ++i) force[i] = blood.density * jacobian * (change[i] + convection[i]) - stress[i];
@@ -210,13 +135,14 @@ class Vessel : public Motion {
   }
   /// J div v
   double blood_volume(const Vector<double>& x, double t) const {
-    return contract(cofactor(deformation(x, t)), manufactured::gradient<Axes>(velocity_field(), x, t));
+    return contract(cofactor(deformation(x, t)),
+                    manufactured::gradient<typename Motion::Axes>(velocity_field(), x, t));
   }
   /// rho d2d/dt2 - Div P
   Vector<double> wall_force(const wall::Law<double>& law, double density, const Vector<double>& x,
                             double t) const {
     const Vector<double> acceleration = manufactured::second_rate(displacement_field(), x, t);
-    const Vector<double> stress = manufactured::divergence<Axes>(
+    const Vector<double> stress = manufactured::divergence<typename Motion::Axes>(
         [&](const auto& place, const auto& time) { return wall_stress(law, place, time); }, x, t);
     Vector<double> force{};
     for (int i = 0; i < 3; ++i) force[i] = density * acceleration[i] - stress[i];
@@ -224,9 +150,9 @@ class Vessel : public Motion {
   }
   /// - Div Grad d
   Vector<double> mesh_force(const Vector<double>& x, double t) const {
-    const Vector<double> laplacian = manufactured::divergence<Axes>(
+    const Vector<double> laplacian = manufactured::divergence<typename Motion::Axes>(
         [&](const auto& place, const auto& time) {
-          return manufactured::gradient<Axes>(displacement_field(), place, time);
+          return manufactured::gradient<typename Motion::Axes>(displacement_field(), place, time);
         },
         x, t);
     return {-laplacian[0], -laplacian[1], -laplacian[2]};
@@ -276,7 +202,7 @@ class Vessel : public Motion {
 
 /// The same function of place and time, which keeps what it gave for the latest time: every iteration asks
 /// again.
-template <class Function>
+template <class Point, class Function>
 auto kept(Function function) {
   using Result = std::invoke_result_t<Function, Point, double>;
   struct Memory {
@@ -297,40 +223,53 @@ auto kept(Function function) {
 /// were its end free but for the node that it shares with the outlet's mesh, orders would be lost, since a
 /// solid cannot be held at a point. `vessel` and `problem` have to stay where they are.
 template <class Motion>
-void set_loads(const Vessel<Motion>& vessel, Problem& problem) {
-  const auto place = [](const Point& x) { return Vector<double>{x[0], 0, x[1]}; };
+void set_loads(const Vessel<Motion>& vessel, Conditions<Motion::dimension>& problem) {
+  using Point = typename Conditions<Motion::dimension>::Point;
+  const auto place = [](const Point& x) { return Motion::place(x); };
   const auto of_time = [](auto function) {
-    return [keeper = kept([function](const Point&, double t) { return function(t); })](double t) {
+    return [keeper = kept<Point>([function](const Point&, double t) { return function(t); })](double t) {
       return keeper(Point{}, t);
     };
   };
   const auto* const v = &vessel;
-  const Problem* const p = &problem;
-  problem.displacement = kept([=](const Point& x, double t) { return v->displacement(place(x), t); });
-  problem.velocity = kept([=](const Point& x, double t) { return v->velocity(place(x), t); });
+  const auto* const p = &problem;
+  problem.displacement = kept<Point>([=](const Point& x, double t) { return v->displacement(place(x), t); });
+  problem.velocity = kept<Point>([=](const Point& x, double t) { return v->velocity(place(x), t); });
   for (const auto boundary : {Boundary::inlet, Boundary::outlet, Boundary::wall_inlet, Boundary::wall_outlet})
-    problem.on(boundary).displacement = {true, true};
-  const bool is_open = problem.inlet.kind != InletKind::prescribed;
-  problem.on(Boundary::inlet).velocity = {!is_open, !is_open};
+    problem.on(boundary).displacement.fill(true);
+  problem.on(Boundary::inlet).velocity.fill(problem.inlet.kind == InletKind::prescribed);
   if (problem.inlet.kind == InletKind::flow)
     problem.inlet.value = of_time([=](double t) { return v->flow(0, t); });
   if (problem.inlet.kind == InletKind::pressure)
     problem.inlet.value = [=](double t) { return v->inlet_pressure(t); };
   problem.outlet.pressure = of_time([=](double t) { return v->pressure_beyond(p->outlet, t); });
   problem.loads.blood_force =
-      kept([=](const Point& x, double t) { return v->blood_force(p->blood, place(x), t); });
-  problem.loads.blood_volume = kept([=](const Point& x, double t) { return v->blood_volume(place(x), t); });
-  problem.loads.mesh_force = kept([=](const Point& x, double t) { return v->mesh_force(place(x), t); });
-  problem.loads.wall_force =
-      kept([=](const Point& x, double t) { return v->wall_force(p->laws[0], p->wall_density, place(x), t); });
-  const auto inlet = kept([=](const Point& x, double t) { return v->opening_load(*p, place(x), t, false); });
-  const auto outlet = kept([=](const Point& x, double t) { return v->opening_load(*p, place(x), t, true); });
-  const auto outer = kept([=](const Point& x, double t) { return v->outer_load(*p, place(x), t); });
+      kept<Point>([=](const Point& x, double t) { return v->blood_force(p->blood, place(x), t); });
+  problem.loads.blood_volume =
+      kept<Point>([=](const Point& x, double t) { return v->blood_volume(place(x), t); });
+  problem.loads.mesh_force =
+      kept<Point>([=](const Point& x, double t) { return v->mesh_force(place(x), t); });
+  problem.loads.wall_force = kept<Point>(
+      [=](const Point& x, double t) { return v->wall_force(p->laws[0], p->wall_density, place(x), t); });
+  const auto inlet =
+      kept<Point>([=](const Point& x, double t) { return v->opening_load(*p, place(x), t, false); });
+  const auto outlet =
+      kept<Point>([=](const Point& x, double t) { return v->opening_load(*p, place(x), t, true); });
+  const auto outer = kept<Point>([=](const Point& x, double t) { return v->outer_load(*p, place(x), t); });
   // The wall's normal on the interface is that of the lumen turned round.
-  const auto interface = kept([=](const Point& point, double t) {
+  const auto interface = kept<Point>([=](const Point& point, double t) {
     const Vector<double> x = place(point);
     return (v->blood_stress(p->blood, x, t) - v->wall_stress(p->laws[0], x, t)) * v->normal(x);
   });
+  // Planes that the vessel is cut along are none of symmetry here.
+  const auto cut = kept<Point>([=](const Point& point, double t) {
+    const Vector<double> x = place(point);
+    return v->blood_stress(p->blood, x, t) * v->cut_normal(x);
+  });
+  for (const auto boundary : {Boundary::symmetry_x, Boundary::symmetry_y}) {
+    problem.on(boundary).displacement.fill(true);
+    problem.on(boundary).velocity.fill(false);
+  }
   problem.loads.traction = [=](const Point& x, double t, Boundary boundary) {
     switch (boundary) {
       case Boundary::inlet:
@@ -341,10 +280,13 @@ void set_loads(const Vessel<Motion>& vessel, Problem& problem) {
         return interface(x, t);
       case Boundary::outer:
         return outer(x, t);
+      case Boundary::symmetry_x:
+      case Boundary::symmetry_y:
+        return cut(x, t);
       default:
         return Vector<double>{};
     }
   };
 }
 
-}  // namespace tunica::axisym::mms
+}  // namespace tunica::mms

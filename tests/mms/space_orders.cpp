@@ -10,11 +10,15 @@
 
 #include "axisym/assembler.hpp"
 #include "axisym/structured.hpp"
-#include "core/coupled/newton.hpp"
-#include "tests/mms/errors.hpp"
+#include "tests/mms/half_plane_cells.hpp"
+#include "tests/mms/half_plane_motions.hpp"
+#include "tests/mms/instant.hpp"
 
-namespace tunica::axisym::mms {
+namespace tunica::mms {
 namespace {
+
+using axisym::CellShape, axisym::Element, axisym::Mesh, axisym::TubeSpec;
+using half_plane::SmoothMotion;
 
 /// Orders that theory gives in L2. That of the pressure is 2 with quadratic velocity; with linear velocity 1
 /// is sure, and meshes in rows and columns give up to 2.
@@ -53,50 +57,20 @@ class SpaceOrders : public testing::TestWithParam<Case> {
     return mesh;
   }
 
-  /// The equations at one instant of the motion: rates are those of a time scheme of which all past values
-  /// are exact, so that everything is there but an error in time. Steady: all rates are zero.
   Errors solve(int cells, double bulk_modulus) const {
-    Problem problem;
+    axisym::Problem problem;
     problem.mesh = mesh(cells);
     problem.discretisation = {GetParam().element, mixed_wall, false};
-    problem.blood = {1.1, 0.6};
-    problem.laws = {wall::SplitLaw<double, wall::Exp1>{{bulk_modulus}, {40, 0.5}, {}}};
-    problem.wall_density = 1.2;
-    problem.tether = {3, tether};
-    problem.inlet.kind = GetParam().inlet;
-    problem.outlet.resistance = 0.7;
-    problem.outlet.backflow = 0.5;
-    set_loads(vessel, problem);
-    const Assembler assembler(problem);
-    const double time = 0.2, coefficient = vessel.steady ? 0 : 2;
-    std::vector<double> y = nodal(problem, assembler.layout(), vessel, time);
-    std::vector<double> history = nodal(problem, assembler.layout(), vessel, time, true);
-    for (std::size_t e = 0; e < y.size(); ++e) history[e] -= coefficient * y[e];
-    coupled::Newton newton(assembler);
-    const auto report = newton.solve({time, coefficient, history}, y, {1e-10, 30});
-    EXPECT_TRUE(report.converged) << report.failure;
-    return errors(problem, assembler.layout(), y, vessel, time);
+    set_instant(vessel, bulk_modulus, tether, GetParam().inlet, problem);
+    return solve_instant<HalfPlaneCells>(axisym::Assembler(problem), problem, vessel);
   }
 
   void expect_orders(double bulk_modulus, double slack_above) {
     const Case& c = GetParam();
-    std::vector<Errors> levels;
-    for (const int cells : {4, 8, 16}) levels.push_back(solve(cells, bulk_modulus));
-    const auto expect = [&](const char* what, double Errors::*error, double least, double greatest) {
-      const double coarse = std::log2(levels[0].*error / levels[1].*error),
-                   fine = std::log2(levels[1].*error / levels[2].*error);
-      RecordProperty(what, std::to_string(coarse) + " " + std::to_string(fine) + ", error " +
-                               std::to_string(levels[2].*error));
-      EXPECT_GT(fine, least - 0.15) << what << ", coarser pair: " << coarse;
-      EXPECT_LT(fine, greatest + slack_above) << what << ", coarser pair: " << coarse;
-    };
-    expect("wall displacement", &Errors::wall_displacement, c.order, c.order);
-    expect("blood displacement", &Errors::blood_displacement, c.order, c.order);
-    expect("velocity", &Errors::velocity, c.order, c.order);
-    expect("pressure", &Errors::pressure, c.least_pressure_order, c.greatest_pressure_order);
-    // These follow from integrals over the openings, which may converge faster than fields.
-    expect("outlet pressure", &Errors::outlet_pressure, c.order, 10);
-    if (c.inlet == InletKind::flow) expect("inlet pressure", &Errors::inlet_pressure, c.order, 10);
+    std::vector<Level> levels;
+    for (const int cells : {4, 8, 16}) levels.push_back({cells, solve(cells, bulk_modulus)});
+    mms::expect_orders(levels, {c.order, c.least_pressure_order, c.greatest_pressure_order}, slack_above,
+                       c.inlet == InletKind::flow);
   }
 
   bool mixed_wall = true;
@@ -201,4 +175,4 @@ TEST_P(NearlyIncompressibleQuadrilateral, IsSofterWithAPressureOfItsOwn) {
 }
 
 }  // namespace
-}  // namespace tunica::axisym::mms
+}  // namespace tunica::mms

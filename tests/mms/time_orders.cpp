@@ -3,48 +3,25 @@
 // manufactured solution that the elements hold without error.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <ostream>
-#include <string>
 #include <vector>
 
 #include "axisym/assembler.hpp"
 #include "axisym/structured.hpp"
-#include "tests/mms/errors.hpp"
-#include "tests/support/march.hpp"
+#include "tests/mms/half_plane_cells.hpp"
+#include "tests/mms/half_plane_motions.hpp"
+#include "tests/mms/march_errors.hpp"
 
-namespace tunica::axisym::mms {
+namespace tunica::mms {
 namespace {
 
-enum Field {
-  wall_displacement,
-  wall_velocity,
-  mesh_displacement,
-  velocity,
-  pressure,
-  inlet_pressure,
-  outlet_pressure,
-  stored_pressure,
-  fields
-};
-constexpr std::array<const char*, fields> names{"wall displacement", "wall velocity",  "mesh displacement",
-                                                "velocity",          "pressure",       "inlet pressure",
-                                                "outlet pressure",   "stored pressure"};
-using Greatest = std::array<double, fields>;  ///< errors
-
-/// Lengths of `count` steps that add up to 1.
-using Steps = std::vector<double> (*)(int count);
 std::vector<double> scaled(std::vector<double> steps) {
   double sum = 0;
   for (const double step : steps) sum += step;
   for (double& step : steps) step /= sum;
   return steps;
-}
-std::vector<double> equal(int count) {
-  return std::vector<double>(count, 1.0 / count);
 }
 /// Between a half and one and a half times the mean, slowly up and down.
 std::vector<double> smooth(int count) {
@@ -64,87 +41,35 @@ std::vector<double> irregular(int count) {
 class TimeOrders : public testing::Test {
  protected:
   TimeOrders() {
-    TubeSpec spec;
+    axisym::TubeSpec spec;
     spec.radius = vessel.radius;
     spec.layers = {vessel.thickness};
     spec.length = vessel.length;
     spec.blood_cells = spec.axial_cells = 2;
     spec.wall_cells = 1;
-    problem.mesh = structured_tube(spec);
-    problem.blood = {1.1, 0.6};
-    // So heavy and soft that its fastest wave takes several steps through the wall: what is faster than the
-    // steps hides the order until it is resolved.
-    problem.laws = {wall::SplitLaw<double, wall::NeoHookean>{{5}, {3}, {}}};
-    problem.wall_density = 10;
-    problem.tether = {3};
-    problem.inlet.kind = InletKind::flow;
-    problem.outlet.kind = OutletKind::windkessel;
-    problem.outlet.resistance = 0.7;
-    problem.outlet.proximal_resistance = 0.3;
-    problem.outlet.compliance = 0.5;
-    set_loads(vessel, problem);
-  }
-
-  /// Greatest errors at the nodes in the second half of the time from 0 to 1.
-  Greatest run(time::Method method, const std::vector<double>& steps) const {
-    const Assembler assembler(problem);
-    const Layout& layout = assembler.layout();
-    time::Scheme scheme(method);
-    scheme.start(0, nodal(problem, layout, vessel, 0), nodal(problem, layout, vessel, 0, true));
-    Greatest greatest{};
-    test_support::march(assembler, scheme, steps, 1e-9, [&] {
-      if (scheme.time() < 0.5) return;
-      const std::vector<double> exact = nodal(problem, layout, vessel, scheme.time());
-      const auto compare = [&](Field field, std::size_t entry) {
-        greatest[field] = std::max(greatest[field], std::abs(scheme.value()[entry] - exact[entry]));
-      };
-      for (std::size_t n = 0; n < problem.mesh.points.size(); ++n) {
-        const int node = static_cast<int>(n);
-        for (int c = 0; c < 2; ++c) {
-          compare(layout.on_wall(node) ? wall_displacement : mesh_displacement, layout.displacement(node, c));
-          compare(layout.on_wall(node) ? wall_velocity : velocity, layout.velocity(node, c));
-        }
-        if (layout.has_pressure(node)) compare(pressure, layout.pressure(node));
-      }
-      compare(inlet_pressure, *layout.inlet_pressure);
-      compare(outlet_pressure, *layout.outlet_pressure);
-      compare(stored_pressure, *layout.windkessel_pressure);
-    });
-    return greatest;
+    problem.mesh = axisym::structured_tube(spec);
+    set_march(vessel, problem);
   }
 
   void expect_order(time::Method method, Steps steps, double order, double least_pressure_order) {
-    const Greatest coarse = run(method, steps(40)), middle = run(method, steps(80)),
-                   fine = run(method, steps(160));
-    for (int f = 0; f < fields; ++f) {
-      const double before = std::log2(coarse[f] / middle[f]), last = std::log2(middle[f] / fine[f]);
-      RecordProperty(names[f], std::to_string(before) + " " + std::to_string(last) + ", error " +
-                                   std::to_string(fine[f]));
-      const bool is_pressure = f == pressure || f == inlet_pressure;
-      EXPECT_GT(last, (is_pressure ? least_pressure_order : order) - 0.15)
-          << names[f] << ", coarser pair: " << before;
-      EXPECT_LT(last, order + 0.15) << names[f] << ", coarser pair: " << before;
-    }
+    const axisym::Assembler assembler(problem);
+    const auto run = [&](int count) {
+      return march_errors<HalfPlaneCells>(assembler, problem, vessel, method, steps(count));
+    };
+    expect_time_order(run, {40, 80, 160}, order, least_pressure_order);
   }
 
-  Vessel<PolynomialMotion> vessel;
-  Problem problem;
+  Vessel<half_plane::PolynomialMotion> vessel;
+  axisym::Problem problem;
 };
 
 // What the orders below rest on: at one instant, with exact rates, the exact state solves the equations.
 TEST_F(TimeOrders, AreWithoutErrorsInSpace) {
-  const Assembler assembler(problem);
-  const double time = 0.3, coefficient = 5;
-  const std::vector<double> exact = nodal(problem, assembler.layout(), vessel, time);
-  std::vector<double> history = nodal(problem, assembler.layout(), vessel, time, true), y = exact;
-  for (std::size_t e = 0; e < y.size(); ++e) history[e] -= coefficient * y[e];
-  coupled::Newton newton(assembler);
-  ASSERT_TRUE(newton.solve({time, coefficient, history}, y, {1e-13, 20}).converged);
-  for (std::size_t e = 0; e < y.size(); ++e) EXPECT_NEAR(y[e], exact[e], 1e-13);
+  expect_no_error_in_space<HalfPlaneCells>(axisym::Assembler(problem), problem, vessel);
 }
 
 TEST_F(TimeOrders, OfBdf2WithEqualSteps) {
-  expect_order(time::Method::bdf2, equal, 2, 2);
+  expect_order(time::Method::bdf2, equal_steps, 2, 2);
 }
 
 TEST_F(TimeOrders, OfBdf2WithStepsThatVary) {
@@ -158,12 +83,12 @@ TEST_F(TimeOrders, OfBdf2WithStepsThatChangeAtOnce) {
 }
 
 TEST_F(TimeOrders, OfBackwardEuler) {
-  expect_order(time::Method::backward_euler, equal, 1, 1);
+  expect_order(time::Method::backward_euler, equal_steps, 1, 1);
 }
 
 TEST_F(TimeOrders, OfGeneralizedAlpha) {
-  expect_order(time::Method::generalized_alpha, equal, 2, 2);
+  expect_order(time::Method::generalized_alpha, equal_steps, 2, 2);
 }
 
 }  // namespace
-}  // namespace tunica::axisym::mms
+}  // namespace tunica::mms
