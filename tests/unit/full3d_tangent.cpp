@@ -2,6 +2,7 @@
 // The assembled derivative of the coupled equations in space.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <tuple>
@@ -86,7 +87,7 @@ class SolidTangent : public testing::TestWithParam<std::tuple<SolidCase, bool>> 
 
   void expect_exact(double speed = 1, double rate_coefficient = 3) {
     SCOPED_TRACE(random.origin());
-    const Assembler assembler(problem, ranks);
+    const Assembler assembler(problem, ranks, all_rows);
     const tangent::State state = random_state(assembler, speed, rate_coefficient);
     assembler.share().assemble(assembler.loaded(state.stage, state.value), state.value);
     const auto product = [&](std::span<const double> direction) {
@@ -96,6 +97,12 @@ class SolidTangent : public testing::TestWithParam<std::tuple<SolidCase, bool>> 
                                  random);
   }
 
+  /// The matrix has the rows of bubbles, too.
+  const SolverChoice all_rows = [] {
+    SolverChoice choice;
+    choice.condense = false;
+    return choice;
+  }();
   const Ranks ranks;
   RandomDeformation random;
   Problem problem;
@@ -139,6 +146,29 @@ TEST_P(SolidTangent, OfAWallWithoutBlood) {
   make_mesh(false);
   problem.lumen_pressure = [](double) { return 1.5; };
   expect_exact();
+}
+
+class CondensedBubbles : public SolidTangent {};
+INSTANTIATE_TEST_SUITE_P(Elements, CondensedBubbles,
+                         testing::Combine(testing::Values(test_support::solid_cases[4]), testing::Bool()),
+                         [](const auto& test) { return std::get<1>(test.param) ? "bent" : "straight"; });
+
+TEST_P(CondensedBubbles, LeaveTheSolutionAsItIs) {
+  SCOPED_TRACE(random.origin());
+  const Assembler whole(problem, ranks, all_rows), condensed(problem, ranks);
+  const tangent::State state = random_state(whole, 1, 3);
+  std::vector<double> expected(whole.layout().unknowns());
+  for (double& value : expected) value = random.uniform(-1, 1);
+  std::vector<double> found = expected;
+  ASSERT_TRUE(whole.share().factorise(whole.loaded(state.stage, state.value), state.value));
+  ASSERT_TRUE(whole.share().solve(expected));
+  ASSERT_TRUE(condensed.share().factorise(condensed.loaded(state.stage, state.value), state.value));
+  ASSERT_TRUE(condensed.share().solve(found));
+  double size = 0;
+  for (const double value : expected) size = std::max(size, std::abs(value));
+  // Round-off, times the condition of these small matrices.
+  for (std::size_t u = 0; u < found.size(); ++u) EXPECT_NEAR(found[u], expected[u], 1e-9 * size) << u;
+  EXPECT_LT(condensed.share().entries(), whole.share().entries());
 }
 
 }  // namespace
