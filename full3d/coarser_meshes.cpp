@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/error.hpp"
 #include "full3d/prolong.hpp"
 
 namespace tunica::full3d {
@@ -54,7 +55,17 @@ class OwnMesh final : public coupled::StaticMesh {
 CoarserMeshes::CoarserMeshes(const Scene& scene, const Setup& finest, Team& team)
     : scene_(scene),
       team_(team),
-      resolutions_(coarser_resolutions(finest.resolution, finest.problem.mesh.layers())) {}
+      resolutions_(coarser_resolutions(finest.resolution, finest.problem.mesh.layers())) {
+  // A bend may ask for more cells along it than the coarsest meshes have.
+  std::erase_if(resolutions_, [&](const Resolution& resolution) {
+    try {
+      o_grid_vessel(vessel_spec(scene, resolution, finest.problem.mesh.has(Part::blood)));
+      return false;
+    } catch (const InvalidInput&) {
+      return true;
+    }
+  });
+}
 
 std::unique_ptr<coupled::StaticMesh> CoarserMeshes::make(int index) const {
   return std::make_unique<OwnMesh>(scene_, resolutions_[index], team_);
