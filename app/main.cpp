@@ -44,6 +44,9 @@ class LightProgram final : public Program {
       if (!is_first_process()) std::exit(0);
       return;
     }
+    // Factors are made by one thread in each process: threads in the small products of which there are many
+    // wait for each other.
+    ::setenv("OPENBLAS_NUM_THREADS", "1", 0);
     const auto other = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "tunica-full3d";
     ::execv(other.c_str(), argv_);
     throw InvalidInput(fmt::format(

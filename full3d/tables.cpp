@@ -112,6 +112,7 @@ Tables<Width, SideWidth>::Tables(const Problem& problem) : problem_(problem) {
   const Mesh& mesh = problem.mesh;
   const Element element = problem.discretisation.element;
   const Basis basis = displacement_basis(element);
+  affine_ = mesh.shape == Shape::tetrahedron && basis == Basis::linear;
   blood_ = reference(element::solid::cell_rule(mesh.shape, velocity_basis(element)));
   wall_[0] = reference(element::solid::cell_rule(mesh.shape, basis));
   if (mesh.shape == Shape::hexahedron)
@@ -166,13 +167,27 @@ int Tables<Width, SideWidth>::pressure_terms(int cell) const {
 }
 
 template <int Width, int SideWidth>
+PlacedShapes Tables<Width, SideWidth>::placed_at(int cell, const Reference& reference, bool is_first,
+                                                 const PlacedShapes& first) const {
+  if (is_first || !affine_) return placed(problem_.mesh, cell, reference.displacement);
+  PlacedShapes at = first;
+  at.place = {};
+  for (int k = 0; k < reference.displacement.count; ++k) {
+    const Point& x = problem_.mesh.points[problem_.mesh.cells[cell].nodes[k]];
+    for (int i = 0; i < 3; ++i) at.place[i] += reference.displacement.value[k] * x[i];
+  }
+  return at;
+}
+
+template <int Width, int SideWidth>
 void Tables<Width, SideWidth>::blood(int cell, std::vector<BloodPoint>& points) const {
   points.assign(blood_.size(), {});
   const bool same = problem_.discretisation.element != Element::bubble;
+  PlacedShapes at;
   for (std::size_t q = 0; q < blood_.size(); ++q) {
     const Reference& r = blood_[q];
     BloodPoint& point = points[q];
-    const PlacedShapes at = placed(problem_.mesh, cell, r.displacement);
+    at = placed_at(cell, r, q == 0, at);
     point.weight = r.weight * at.determinant;
     point.place = at.place;
     lift_shapes(r.displacement, at, point.displacement);
@@ -188,10 +203,11 @@ template <int Width, int SideWidth>
 void Tables<Width, SideWidth>::wall(int cell, std::vector<WallPoint>& points) const {
   const auto& rule = wall_[wall_rules_[cell]];
   points.assign(rule.size(), {});
+  PlacedShapes at;
   for (std::size_t q = 0; q < rule.size(); ++q) {
     const Reference& r = rule[q];
     WallPoint& point = points[q];
-    const PlacedShapes at = placed(problem_.mesh, cell, r.displacement);
+    at = placed_at(cell, r, q == 0, at);
     point.weight = r.weight * at.determinant;
     point.place = at.place;
     lift_shapes(r.displacement, at, point.displacement);

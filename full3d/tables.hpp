@@ -59,7 +59,12 @@ class Tables {
   /// Number of the rule for a wall cell: 0 the plain one, 1 + d with more points along local direction d.
   int wall_rule(int cell) const;
 
+  /// The map at a point; that of a cell with flat sides is the same at all of them.
+  PlacedShapes placed_at(int cell, const Reference& reference, bool is_first,
+                         const PlacedShapes& first) const;
+
   const Problem& problem_;
+  bool affine_ = false;
   std::vector<Reference> blood_;
   std::array<std::vector<Reference>, 4> wall_;
   std::vector<signed char> wall_rules_;  ///< by cell

@@ -154,7 +154,7 @@ std::string displacement_name(int point, int angle) {
 /// Inner and outer displacement at the four angles of mid-bend under 100 mmHg.
 std::string static_torus(Study& study) {
   const std::vector<MeshCells> meshes{
-      {2, 1, 10, 8}, {3, 1, 14, 8}, {4, 1, 20, 16}, {6, 1, 28, 16}, {8, 1, 40, 16}};
+      {2, 1, 14, 8}, {4, 1, 20, 8}, {4, 1, 20, 16}, {6, 1, 28, 16}, {8, 1, 40, 16}};
   std::vector<std::vector<std::string>> rows;
   for (const std::string law : {"EXP1+EXP2-ZS", "EXP1+EXP2-FS"}) {
     std::vector<double> before;

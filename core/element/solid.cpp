@@ -90,12 +90,21 @@ constexpr FourPoints four_points[] = {{0.2146028712591517, 0.006653791709694646}
 constexpr double twelve_a = 0.06366100187501752, twelve_b = 0.2696723314583159,
                  twelve_weight = 0.008035714285714285;
 
-Rule tetrahedron_rule() {
+Rule tetrahedron_rule(Basis basis) {
   Rule rule;
   const auto add = [&](const std::array<double, 4>& l, double weight) {
     rule.points.push_back({l[1], l[2], l[3]});
     rule.weights.push_back(weight);
   };
+  if (basis == Basis::linear) {
+    constexpr double a = 0.13819660112501052, weight = 1.0 / 24;  // (5 - sqrt 5)/20
+    for (int odd = 0; odd < 4; ++odd) {
+      std::array<double, 4> l{a, a, a, a};
+      l[odd] = 1 - 3 * a;
+      add(l, weight);
+    }
+    return rule;
+  }
   for (const auto& [a, weight] : four_points)
     for (int odd = 0; odd < 4; ++odd) {
       std::array<double, 4> l{a, a, a, a};
@@ -139,7 +148,7 @@ Local node_position(Shape shape, Basis basis, int node) {
 }
 
 Rule cell_rule(Shape shape, Basis basis) {
-  if (shape == Shape::tetrahedron) return tetrahedron_rule();
+  if (shape == Shape::tetrahedron) return tetrahedron_rule(basis);
   const auto line = gauss_legendre(line_points(basis));
   Rule rule;
   for (const auto& c : line)

@@ -51,7 +51,7 @@ struct Rule {
   std::vector<double> weights;
 };
 /// Cubes: exact for degree 3 in each coordinate with the linear basis, 5 with the quadratic one. Tetrahedra:
-/// degree 6, that of the product of two bubbles' gradients.
+/// degree 2 with the linear basis, else 6, that of the product of two bubbles' gradients.
 Rule cell_rule(Shape shape, Basis basis);
 
 constexpr int faces(Shape shape) {

@@ -159,17 +159,20 @@ TEST(SolidRule, IntegratesWhatItPromises) {
         }
   }
   // int x^i y^j z^k = i! j! k! / (i+j+k+3)!
-  const Rule tetrahedron = cell_rule(Shape::tetrahedron, Basis::linear);
-  for (int i = 0; i <= 6; ++i)
-    for (int j = 0; i + j <= 6; ++j)
-      for (int k = 0; i + j + k <= 6; ++k) {
-        double sum = 0;
-        for (std::size_t q = 0; q < tetrahedron.points.size(); ++q) {
-          const auto& [x, y, z] = tetrahedron.points[q];
-          sum += tetrahedron.weights[q] * std::pow(x, i) * std::pow(y, j) * std::pow(z, k);
+  for (const auto& [basis, degree] :
+       {std::pair{Basis::linear, 2}, {Basis::linear_bubble, 6}, {Basis::quadratic, 6}}) {
+    const Rule tetrahedron = cell_rule(Shape::tetrahedron, basis);
+    for (int i = 0; i <= degree; ++i)
+      for (int j = 0; i + j <= degree; ++j)
+        for (int k = 0; i + j + k <= degree; ++k) {
+          double sum = 0;
+          for (std::size_t q = 0; q < tetrahedron.points.size(); ++q) {
+            const auto& [x, y, z] = tetrahedron.points[q];
+            sum += tetrahedron.weights[q] * std::pow(x, i) * std::pow(y, j) * std::pow(z, k);
+          }
+          EXPECT_NEAR(sum, factorial(i) * factorial(j) * factorial(k) / factorial(i + j + k + 3), 1e-15);
         }
-        EXPECT_NEAR(sum, factorial(i) * factorial(j) * factorial(k) / factorial(i + j + k + 3), 1e-15);
-      }
+  }
 }
 
 TEST(SolidBubble, IsNotACubes) {
