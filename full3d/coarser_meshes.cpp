@@ -54,6 +54,7 @@ class OwnMesh final : public coupled::StaticMesh {
 
 CoarserMeshes::CoarserMeshes(const Scene& scene, const Setup& finest, Team& team)
     : scene_(scene),
+      shape_(finest.shape),
       team_(team),
       resolutions_(coarser_resolutions(finest.resolution, finest.problem.mesh.layers())) {
   // A bend may ask for more cells along it than the coarsest meshes have.
@@ -74,7 +75,7 @@ std::unique_ptr<coupled::StaticMesh> CoarserMeshes::make(int index) const {
 std::vector<double> CoarserMeshes::prolong(const coupled::Equations& from, std::span<const double> y,
                                            const coupled::Equations& to) const {
   const auto &source = dynamic_cast<const Assembler&>(from), &target = dynamic_cast<const Assembler&>(to);
-  return full3d::prolong(source.problem(), source.layout(), y, target.problem(), target.layout());
+  return full3d::prolong(shape_, source.problem(), source.layout(), y, target.problem(), target.layout());
 }
 
 }  // namespace tunica::full3d

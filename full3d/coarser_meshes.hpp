@@ -18,6 +18,7 @@ class CoarserMeshes final : public coupled::CoarserMeshes {
 
  private:
   const Scene& scene_;
+  const VesselShape& shape_;
   Team& team_;
   std::vector<Resolution> resolutions_;
 };

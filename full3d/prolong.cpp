@@ -2,6 +2,7 @@
 #include "full3d/prolong.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <stdexcept>
 
@@ -12,31 +13,18 @@ namespace tunica::full3d {
 namespace {
 
 /// The place of a point or, where it lies beside the mesh, of the nearest of some points between it and the
-/// centre of the part's nearest cell.
-std::optional<Place> place_near(const Mesh& mesh, const Locator& locator, const Point& point, Part part) {
+/// middle of the wall or the centreline.
+std::optional<Place> place_near(const VesselShape& shape, const Locator& locator, const Point& point,
+                                Part part) {
   if (auto place = locator.find(point, part)) return place;
-  int nearest = -1;
-  double least = 0;
-  Point centre{};
-  const element::solid::Local middle = mesh.shape == Shape::hexahedron
-                                           ? element::solid::Local{0, 0, 0}
-                                           : element::solid::Local{0.25, 0.25, 0.25};
-  for (int cell = 0; cell < static_cast<int>(mesh.cells.size()); ++cell) {
-    if (mesh.cells[cell].part != part) continue;
-    const Point x = image(mesh, cell, middle).point;
-    double square = 0;
-    for (int i = 0; i < 3; ++i) square += (x[i] - point[i]) * (x[i] - point[i]);
-    if (nearest >= 0 && square >= least) continue;
-    nearest = cell;
-    least = square;
-    centre = x;
-  }
-  // A curved boundary and its image by quadratic cells of an eighth of the circle are 0.2 % of the radius
-  // apart, by flat ones 8 %.
-  for (double share = 1e-4; share < 0.5; share *= 2) {
-    Point moved;
-    for (int i = 0; i < 3; ++i) moved[i] = point[i] + share * (centre[i] - point[i]);
-    if (auto place = locator.find(moved, part)) return place;
+  const VesselShape::Local at = shape.local(point);
+  const double radius = std::hypot(at.x, at.y);
+  const double target = part == Part::wall ? shape.radius + 0.5 * shape.thickness : 0;
+  // A circle and its image by quadratic cells of an eighth of it are 0.2 % of the radius apart, by flat ones
+  // 8 %; long cells in a bend leave out as much.
+  for (double share = 1e-4; share < 1; share *= 1.5) {
+    const double scale = 1 + share * (target / radius - 1);
+    if (auto place = locator.find(shape.place({scale * at.x, scale * at.y, at.s}), part)) return place;
   }
   return {};
 }
@@ -56,12 +44,12 @@ std::vector<int> nodes_of(const Problem& problem, Part part) {
   return nodes;
 }
 
-std::vector<Place> places_of(const Problem& from, const Problem& to, const std::vector<int>& nodes,
-                             Part part) {
+std::vector<Place> places_of(const VesselShape& shape, const Problem& from, const Problem& to,
+                             const std::vector<int>& nodes, Part part) {
   const Locator locator(from.mesh);
   std::vector<Place> places;
   for (const int node : nodes) {
-    const auto place = place_near(from.mesh, locator, to.mesh.points[node], part);
+    const auto place = place_near(shape, locator, to.mesh.points[node], part);
     if (!place) throw std::logic_error("prolong: the meshes are not of the same vessel");
     places.push_back(*place);
   }
@@ -70,20 +58,21 @@ std::vector<Place> places_of(const Problem& from, const Problem& to, const std::
 
 }  // namespace
 
-std::vector<double> prolong(const Problem& from, const Layout& from_layout, std::span<const double> y,
-                            const Problem& to, const Layout& to_layout) {
+std::vector<double> prolong(const VesselShape& shape, const Problem& from, const Layout& from_layout,
+                            std::span<const double> y, const Problem& to, const Layout& to_layout) {
   std::vector<double> state(to_layout.size(), 0.0);
   // On the interface both parts have the same values.
   if (to.mesh.has(Part::wall)) {
     const auto nodes = nodes_of(to, Part::wall);
     const auto strains =
-        wall_probe(from, from_layout, places_of(from, to, nodes, Part::wall), false)->strains(y);
+        wall_probe(from, from_layout, places_of(shape, from, to, nodes, Part::wall), false)->strains(y);
     for (std::size_t k = 0; k < nodes.size(); ++k)
       for (int c = 0; c < 3; ++c) state[to_layout.displacement(nodes[k], c)] = strains[k].displacement[c];
   }
   if (to.mesh.has(Part::blood)) {
     const auto nodes = nodes_of(to, Part::blood);
-    const auto samples = blood_probe(from, from_layout, places_of(from, to, nodes, Part::blood))->samples(y);
+    const auto samples =
+        blood_probe(from, from_layout, places_of(shape, from, to, nodes, Part::blood))->samples(y);
     for (std::size_t k = 0; k < nodes.size(); ++k) {
       for (int c = 0; c < 3; ++c) {
         state[to_layout.displacement(nodes[k], c)] = samples[k].displacement[c];
