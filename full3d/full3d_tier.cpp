@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "full3d/full3d_tier.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "core/coupled/vessel_run.hpp"
@@ -11,6 +13,7 @@
 #include "full3d/fields.hpp"
 #include "full3d/observer.hpp"
 #include "full3d/refusal.hpp"
+#include "full3d/solver_options.hpp"
 
 namespace tunica::full3d {
 
@@ -20,13 +23,21 @@ const char* name_of(Sector sector) {
   return sector == Sector::full ? "full" : sector == Sector::half ? "half" : "quarter";
 }
 
+/// Throws InvalidInput for options that no solver can have: before other ranks are told of them.
+SolverChoice tried_solver_of(const Scene& scene) {
+  SolverChoice choice = solver_of(scene);
+  try_options(choice);
+  return choice;
+}
+
 class Full3dVessel final : public coupled::Vessel {
  public:
   Full3dVessel(const Scene& scene, Team& team)
       : scene_(scene),
         ranks_(team.ranks()),
         setup_(setup_of(scene)),
-        assembler_(setup_->problem, team.ranks(), solver_of(scene), team.open(scene, setup_->resolution)),
+        solver_(tried_solver_of(scene)),
+        assembler_(setup_->problem, team.ranks(), solver_, team.open(scene, setup_->resolution)),
         coarser_(scene, *setup_, team),
         observer_(*setup_, assembler_),
         fields_(*setup_, assembler_, std::max(1, available_threads() / team.ranks().on_machine())) {}
@@ -68,6 +79,8 @@ class Full3dVessel final : public coupled::Vessel {
     if (scene_.text("mesh.element") == "bubble")
       unused.push_back({{"mesh.mixed_wall"}, "mesh.element is \"bubble\""});
     auto warnings = scene::remarks_on(scene_, unused);
+    for (const std::string& option : unused_options())
+      warnings.push_back(fmt::format("solver.options: the solver does not ask for -{}", option));
     const physics::Tether& tether = setup_->problem.tether;
     if (tether.traction != radial::TetherTraction::normal || tether.stiffness == 0)
       if (const auto warning = stability::warning(scene_, setup_->expected_pressure))
@@ -79,6 +92,7 @@ class Full3dVessel final : public coupled::Vessel {
   const Scene& scene_;
   const Ranks& ranks_;
   std::unique_ptr<Setup> setup_;
+  SolverChoice solver_;
   Assembler assembler_;
   CoarserMeshes coarser_;
   Observer observer_;

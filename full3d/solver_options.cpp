@@ -5,6 +5,7 @@
 
 #include <cstdlib>
 #include <sstream>
+#include <stdexcept>
 #include <string_view>
 
 #include "core/error.hpp"
@@ -45,6 +46,26 @@ void insert_options(const SolverChoice& choice) {
                     choice.options));
   insert(choice.options);
   if (const char* environment = std::getenv("PETSC_OPTIONS")) insert(environment);
+}
+
+void try_options(const SolverChoice& choice) {
+  insert_options(choice);
+  OwnedMatrix one;
+  OwnedSolver solver;
+  check(MatCreateSeqAIJ(PETSC_COMM_SELF, 1, 1, 1, nullptr, one.put()), "MatCreateSeqAIJ");
+  check(MatSetValue(one.get(), 0, 0, 1, INSERT_VALUES), "MatSetValue");
+  check(MatAssemblyBegin(one.get(), MAT_FINAL_ASSEMBLY), "MatAssemblyBegin");
+  check(MatAssemblyEnd(one.get(), MAT_FINAL_ASSEMBLY), "MatAssemblyEnd");
+  check(KSPCreate(PETSC_COMM_SELF, solver.put()), "KSPCreate");
+  check(KSPSetOperators(solver.get(), one.get(), one.get()), "KSPSetOperators");
+  try {
+    check(KSPSetFromOptions(solver.get()), "KSPSetFromOptions");
+    check(KSPSetUp(solver.get()), "KSPSetUp");
+  } catch (const std::runtime_error& error) {
+    throw InvalidInput(
+        fmt::format("solver.options = \"{}\": PETSc refuses them, or those of PETSC_OPTIONS: {}",
+                    choice.options, error.what()));
+  }
 }
 
 std::vector<std::string> unused_options() {

@@ -16,6 +16,10 @@ std::vector<std::string> solver_names();
 /// Throws InvalidInput for a text that is not a list of options.
 void insert_options(const SolverChoice& choice);
 
+/// Sets up a solver of a small system with a choice, before any work with it.
+/// Throws InvalidInput for options that PETSc refuses.
+void try_options(const SolverChoice& choice);
+
 /// Options in the database that nothing has asked for.
 std::vector<std::string> unused_options();
 

@@ -23,6 +23,7 @@ class Program {
   Program& operator=(const Program&) = delete;
   ~Program();
 
+  pid_t id() const { return child_; }
   void send(int signal) const;
   bool running();
   /// Waits for its end. Exit code, or 256 + the signal that ended it.
