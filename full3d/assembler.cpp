@@ -105,6 +105,7 @@ class SharedTangent final : public coupled::TangentSolver {
     if (assembler_.announcer_) assembler_.announcer_->solve();
     return assembler_.share_.solve(right_hand_side);
   }
+  long iterations() const override { return assembler_.share_.latest_iterations(); }
   // Factors and preconditioners are made of their matrix alone.
   void forget() override {}
   double entries() const override { return assembler_.share_.entries(); }

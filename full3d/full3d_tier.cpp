@@ -11,6 +11,7 @@
 #include "core/threads.hpp"
 #include "full3d/coarser_meshes.hpp"
 #include "full3d/fields.hpp"
+#include "full3d/memory.hpp"
 #include "full3d/observer.hpp"
 #include "full3d/refusal.hpp"
 #include "full3d/solver_options.hpp"
@@ -26,8 +27,17 @@ const char* name_of(Sector sector) {
 /// Throws InvalidInput for options that no solver can have: before other ranks are told of them.
 SolverChoice tried_solver_of(const Scene& scene) {
   SolverChoice choice = solver_of(scene);
+  check_options(choice);
   try_options(choice);
   return choice;
+}
+
+/// Throws InvalidInput for what there is no memory for.
+std::unique_ptr<Setup> setup_in_memory(const Scene& scene) {
+  auto setup = setup_of(scene);
+  const int unknowns = layout_of(setup->problem).unknowns();
+  check_memory(method_for(scene.text("solver.method"), unknowns), unknowns, available_memory());
+  return setup;
 }
 
 class Full3dVessel final : public coupled::Vessel {
@@ -35,7 +45,7 @@ class Full3dVessel final : public coupled::Vessel {
   Full3dVessel(const Scene& scene, Team& team)
       : scene_(scene),
         ranks_(team.ranks()),
-        setup_(setup_of(scene)),
+        setup_(setup_in_memory(scene)),
         solver_(tried_solver_of(scene)),
         assembler_(setup_->problem, team.ranks(), solver_, team.open(scene, setup_->resolution)),
         coarser_(scene, *setup_, team),
@@ -62,8 +72,19 @@ class Full3dVessel final : public coupled::Vessel {
                          {"axial_cells", r.axial_cells},
                          {"around_cells", r.around_cells},
                          {"symmetry", name_of(setup_->sector)},
-                         {"solver", scene_.text("solver.method")},
+                         {"solver", assembler_.share().method()},
                          {"ranks", ranks_.size()}};
+  }
+
+  void conclude(RunRecord& record) const override {
+    if (const long solutions = assembler_.share().solutions(); solutions > 0) {
+      record.resolution["krylov_iterations"] = assembler_.krylov_iterations();
+      record.resolution["krylov_solutions"] = solutions;
+    }
+    const auto unused = unused_options(solver_);
+    if (!unused.empty())
+      record.findings.push_back(
+          fmt::format("solver.options: the solver does not ask for {}", fmt::join(unused, ", ")));
   }
 
   std::vector<std::string> warnings() const override {
@@ -79,8 +100,6 @@ class Full3dVessel final : public coupled::Vessel {
     if (scene_.text("mesh.element") == "bubble")
       unused.push_back({{"mesh.mixed_wall"}, "mesh.element is \"bubble\""});
     auto warnings = scene::remarks_on(scene_, unused);
-    for (const std::string& option : unused_options())
-      warnings.push_back(fmt::format("solver.options: the solver does not ask for -{}", option));
     const physics::Tether& tether = setup_->problem.tether;
     if (tether.traction != radial::TetherTraction::normal || tether.stiffness == 0)
       if (const auto warning = stability::warning(scene_, setup_->expected_pressure))

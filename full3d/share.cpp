@@ -21,6 +21,7 @@ Share::Share(const Problem& problem, const Layout& layout, const Ranks& ranks, S
   work_ = cell_work(problem, layout, mine, std::max(1, available_threads() / ranks.on_machine()),
                     choice_.condense);
   share_rows(owner);
+  choice_.name = method_for(choice_.name, layout.unknowns());
 }
 
 Share::~Share() = default;
@@ -109,10 +110,21 @@ void Share::make_matrix() {
 }
 
 void Share::make_solver() {
-  insert_options(choice_);
+  const int own = counts_[ranks_.rank()];
+  insert_options(choice_, own);
   check(KSPCreate(ranks_.communicator(), solver_.put()), "KSPCreate");
   check(KSPSetOperators(solver_.get(), matrix_.get(), matrix_.get()), "KSPSetOperators");
   check(KSPSetFromOptions(solver_.get()), "KSPSetFromOptions");
+  PetscBool direct = PETSC_FALSE;
+  check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(solver_.get()), KSPPREONLY, &direct),
+        "PetscObjectTypeCompare");
+  if (direct) return;
+  std::vector<int> unknowns(own);
+  for (int u = 0; u < layout_.unknowns(); ++u) {
+    const int row = petsc_index_[u] - offsets_[ranks_.rank()];
+    if (row >= 0 && row < own) unknowns[row] = u;
+  }
+  blocks_ = std::make_unique<Blocks>(layout_, unknowns, ranks_.communicator());
 }
 
 void Share::assemble(const LoadedStage& stage, std::span<const double> y) {
@@ -128,10 +140,13 @@ void Share::assemble(const LoadedStage& stage, std::span<const double> y) {
 
 bool Share::factorise(const LoadedStage& stage, std::span<const double> y) {
   assemble(stage, y);
-  if (!solver_) make_solver();
-  check(KSPSetUp(solver_.get()), "KSPSetUp");
+  const bool is_first = !solver_;
+  if (is_first) make_solver();
   PC pc = nullptr;
   check(KSPGetPC(solver_.get(), &pc), "KSPGetPC");
+  if (blocks_) blocks_->scale(stage.stage.coefficient, matrix_.get());
+  if (blocks_ && is_first) blocks_->split(pc);
+  check(KSPSetUp(solver_.get()), "KSPSetUp");
   PCFailedReason reason{};
   check(PCGetFailedReason(pc, &reason), "PCGetFailedReason");
   entries_ = factor_entries(pc);
@@ -176,12 +191,18 @@ bool Share::solve_rows(std::span<double> right_hand_side) {
   MPI_Scatterv(ordered.data(), counts_.data(), offsets_.data(), MPI_DOUBLE, local, own, MPI_DOUBLE, 0,
                ranks_.communicator());
   check(VecRestoreArray(right_.get(), &local), "VecRestoreArray");
+  if (blocks_) blocks_->scale_right(right_.get());
   check(KSPSolve(solver_.get(), right_.get(), solution_.get()), "KSPSolve");
   KSPConvergedReason reason{};
   check(KSPGetConvergedReason(solver_.get(), &reason), "KSPGetConvergedReason");
   PetscInt iterations = 0;
   check(KSPGetIterationNumber(solver_.get(), &iterations), "KSPGetIterationNumber");
-  iterations_ += iterations;
+  latest_iterations_ = std::max<long>(1, iterations);
+  if (blocks_) {
+    ++solutions_;
+    iterations_ += iterations;
+    blocks_->unscale_solution(solution_.get());
+  }
   const PetscScalar* found = nullptr;
   check(VecGetArrayRead(solution_.get(), &found), "VecGetArrayRead");
   MPI_Gatherv(found, own, MPI_DOUBLE, ordered.data(), counts_.data(), offsets_.data(), MPI_DOUBLE, 0,

@@ -6,13 +6,15 @@
 #include <string>
 #include <vector>
 
+#include "full3d/blocks.hpp"
 #include "full3d/cell_work.hpp"
 #include "full3d/petsc.hpp"
 #include "full3d/ranks.hpp"
 
 namespace tunica::full3d {
 
-/// How linear systems are solved: a named set of PETSc options, and further ones that go before it.
+/// How linear systems are solved: a named set of PETSc options, or "auto", and further ones that go before
+/// it.
 struct SolverChoice {
   std::string name = "direct";
   std::string options;
@@ -37,7 +39,11 @@ class Share {
   bool solve(std::span<double> right_hand_side);
 
   double entries() const { return entries_; }
-  long iterations() const { return iterations_; }  ///< of Krylov methods, in all
+  /// Of Krylov methods: in all, and for the latest solution.
+  long iterations() const { return iterations_; }
+  long solutions() const { return solutions_; }  ///< with Krylov methods
+  long latest_iterations() const { return latest_iterations_; }
+  const std::string& method() const { return choice_.name; }
   const CellWork& work() const { return *work_; }
   /// Row or column of PETSc's matrix of an unknown, -1 where it is condensed.
   int petsc_index(int unknown) const { return petsc_index_[unknown]; }
@@ -65,8 +71,10 @@ class Share {
   OwnedVector right_, solution_;
   std::size_t own_entries_ = 0;  ///< in the pattern of the cells
   std::vector<double> values_;
+  /// For Krylov methods.
+  std::unique_ptr<Blocks> blocks_;
   double entries_ = 0;
-  long iterations_ = 0;
+  long iterations_ = 0, latest_iterations_ = 1, solutions_ = 0;
 };
 
 }  // namespace tunica::full3d

@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
+#include <cmath>
 #include <cstdlib>
 #include <sstream>
 #include <stdexcept>
@@ -12,7 +15,9 @@
 
 namespace tunica::embedded {
 std::string_view solver_direct();
-}
+std::string_view solver_schwarz();
+std::string_view solver_block();
+}  // namespace tunica::embedded
 
 namespace tunica::full3d {
 
@@ -29,27 +34,50 @@ std::string options_in(std::string_view file) {
   return all;
 }
 
-}  // namespace
+/// Rows of a part of an additive Schwarz method: parts that are solved exactly for less than they cost to
+/// exchange.
+constexpr double rows_of_part = 2500;
 
-std::vector<std::string> solver_names() {
-  return {"direct"};
+std::vector<std::string> words_in(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<std::string> words;
+  for (std::string word; stream >> word;) words.push_back(word);
+  return words;
 }
 
-void insert_options(const SolverChoice& choice) {
+/// A name of an option, not a negative number.
+bool is_option(const std::string& word) {
+  return word.size() > 1 && word[0] == '-' && std::isalpha(static_cast<unsigned char>(word[1]));
+}
+
+}  // namespace
+
+std::string method_for(const std::string& name, int unknowns) {
+  constexpr int most_for_direct = 200000;
+  if (name != "auto") return name;
+  return unknowns <= most_for_direct ? "direct" : "block";
+}
+
+void insert_options(const SolverChoice& choice, int rows) {
   const auto insert = [](const std::string& text) {
     check(PetscOptionsInsertString(nullptr, text.c_str()), "PetscOptionsInsertString");
   };
-  insert(options_in(embedded::solver_direct()));
-  if (!choice.options.empty() && choice.options.front() != '-')
-    throw InvalidInput(
-        fmt::format("solver.options = \"{}\" is not a list of PETSc options, such as \"-ksp_rtol 1e-8\"",
-                    choice.options));
+  const int parts = std::max(2, static_cast<int>(std::lround(rows / rows_of_part)));
+  if (choice.name == "schwarz") {
+    insert(options_in(embedded::solver_schwarz()));
+    insert(fmt::format("-pc_asm_local_blocks {}", parts));
+  } else if (choice.name == "block") {
+    insert(options_in(embedded::solver_block()));
+    insert(fmt::format("-fieldsplit_motion_fieldsplit_velocity_pc_asm_local_blocks {}", parts));
+  } else {
+    insert(options_in(embedded::solver_direct()));
+  }
   insert(choice.options);
   if (const char* environment = std::getenv("PETSC_OPTIONS")) insert(environment);
 }
 
 void try_options(const SolverChoice& choice) {
-  insert_options(choice);
+  insert_options(choice, 1);
   OwnedMatrix one;
   OwnedSolver solver;
   check(MatCreateSeqAIJ(PETSC_COMM_SELF, 1, 1, 1, nullptr, one.put()), "MatCreateSeqAIJ");
@@ -60,7 +88,8 @@ void try_options(const SolverChoice& choice) {
   check(KSPSetOperators(solver.get(), one.get(), one.get()), "KSPSetOperators");
   try {
     check(KSPSetFromOptions(solver.get()), "KSPSetFromOptions");
-    check(KSPSetUp(solver.get()), "KSPSetUp");
+    // Preconditioners of parts and blocks make nothing of one row.
+    if (choice.name != "schwarz" && choice.name != "block") check(KSPSetUp(solver.get()), "KSPSetUp");
   } catch (const std::runtime_error& error) {
     throw InvalidInput(
         fmt::format("solver.options = \"{}\": PETSc refuses them, or those of PETSC_OPTIONS: {}",
@@ -68,12 +97,30 @@ void try_options(const SolverChoice& choice) {
   }
 }
 
-std::vector<std::string> unused_options() {
+void check_options(const SolverChoice& choice) {
+  bool name_before = false;
+  for (const std::string& word : words_in(choice.options)) {
+    const bool is_name = is_option(word);
+    if (!is_name && !name_before)
+      throw InvalidInput(
+          fmt::format("solver.options = \"{}\" is not a list of PETSc options, such as \"-ksp_rtol 1e-8\": "
+                      "\"{}\" follows no option",
+                      choice.options, word));
+    name_before = is_name;
+  }
+}
+
+std::vector<std::string> unused_options(const SolverChoice& choice) {
+  const char* environment = std::getenv("PETSC_OPTIONS");
+  std::vector<std::string> given = words_in(choice.options + " " + (environment ? environment : ""));
   PetscInt count = 0;
   char **names = nullptr, **values = nullptr;
   check(PetscOptionsLeftGet(nullptr, &count, &names, &values), "PetscOptionsLeftGet");
   std::vector<std::string> unused;
-  for (PetscInt k = 0; k < count; ++k) unused.emplace_back(names[k]);
+  for (PetscInt k = 0; k < count; ++k) {
+    const std::string name = fmt::format("-{}", names[k]);
+    if (std::find(given.begin(), given.end(), name) != given.end()) unused.push_back(name);
+  }
   check(PetscOptionsLeftRestore(nullptr, &count, &names, &values), "PetscOptionsLeftRestore");
   return unused;
 }

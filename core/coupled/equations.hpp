@@ -38,6 +38,8 @@ class TangentSolver {
   /// Overwrites a right-hand side with the solution. Needs a factorisation. False when no solution was
   /// found: the right-hand side is then of no use.
   virtual bool solve(std::span<double> right_hand_side) = 0;
+  /// Of the latest solution: 1 with factors, more with a Krylov method.
+  virtual long iterations() const { return 1; }
   /// Forgets all that the next factorisation could depend on but its matrix.
   virtual void forget() = 0;
   /// Entries of the latest factors, a measure of their cost.

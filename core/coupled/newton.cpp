@@ -37,9 +37,9 @@ bool Newton::factorise(const Stage& stage, std::span<double> y) {
 }
 
 void Newton::correct(std::vector<double>& correction) {
-  ++counts_.solves;
   correction.assign(residual_.begin(), residual_.end());
   if (!solver_->solve(correction)) std::fill(correction.begin(), correction.end(), NAN);
+  counts_.linear_iterations += solver_->iterations();
   for (double& entry : correction) entry = -entry;
 }
 

@@ -28,12 +28,13 @@ struct NewtonReport {
 
 /// Counts since the solver was made.
 struct NewtonCounts {
-  long iterations = 0, factorisations = 0, solves = 0;
+  long iterations = 0, factorisations = 0;
+  long linear_iterations = 0;  ///< TangentSolver::iterations of all solutions
 
   NewtonCounts& operator+=(const NewtonCounts& other) {
     iterations += other.iterations;
     factorisations += other.factorisations;
-    solves += other.solves;
+    linear_iterations += other.linear_iterations;
     return *this;
   }
 };

@@ -96,6 +96,7 @@ class VesselRun final : public TierRun {
     log_.store(result_, end_, result_.record.converged && !is_static_);
     count();
     judge_steps();
+    vessel_->conclude(result_.record);
     result_.record.solve_seconds = seconds();
     return std::move(result_);
   }
@@ -169,7 +170,8 @@ class VesselRun final : public TierRun {
     record.rejected_steps = simulation_.step_counts().rejected_by_error +
                             simulation_.step_counts().rejected_by_solver + static_.rejected;
     record.newton_iterations = before_.newton + newton.iterations + static_.coarse.iterations;
-    record.linear_iterations = before_.solves + newton.solves + static_.coarse.solves;
+    record.linear_iterations =
+        before_.linear_iterations + newton.linear_iterations + static_.coarse.linear_iterations;
     record.resolution["factorisations"] =
         before_.factorisations + newton.factorisations + static_.coarse.factorisations;
     if (is_static_ || scene_.text("time.start") != "rest")
@@ -390,7 +392,7 @@ class VesselRun final : public TierRun {
   StaticReport static_;
   LimitCycleReport cycle_;
   struct {
-    long newton = 0, solves = 0, factorisations = 0;
+    long newton = 0, linear_iterations = 0, factorisations = 0;
   } before_;  ///< the run was resumed
   std::size_t next_stop_ = 0;
   std::vector<double> event_values_;

@@ -60,6 +60,8 @@ class Vessel {
   virtual std::vector<std::string> warnings() const = 0;
   /// Looks at a static state that was found: findings, and numbers for record.resolution.
   virtual void judge_static(std::span<const double>, RunRecord&) const {}
+  /// Adds at the end of a run what the tier has to say about it.
+  virtual void conclude(RunRecord&) const {}
 };
 
 /// Computes a scene with a vessel: start, beats or static state, rows, profiles, pictures, events,

@@ -307,8 +307,11 @@ std::vector<Parameter> declare() {
              "How the mesh in the blood follows the wall: harmonic, or with small cells made stiffer, which "
              "bears larger motion (2D and 3D tiers)."));
 
-  all.push_back(choice("solver.method", "direct", {"direct"},
-                       "How the 3D tier solves its linear systems: direct factorises (MUMPS)."));
+  all.push_back(
+      choice("solver.method", "auto", {"auto", "direct", "schwarz", "block"},
+             "How the 3D tier solves its linear systems: direct factorises (MUMPS), schwarz is GMRES "
+             "with additive Schwarz, block GMRES with a preconditioner by fields; auto is direct up "
+             "to 200,000 unknowns and block beyond."));
   all.push_back({"solver.options",
                  Kind::text,
                  "",

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Runs of the 3D tier in several processes.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "core/observables/result.hpp"
+#include "tests/support/program.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace tunica {
+namespace {
+
+using test_support::Program;
+using test_support::TemporaryFolder;
+
+const std::string scene = std::string(TUNICA_SOURCE_DIR) + "/scenes/cylinder.toml";
+
+struct Finished {
+  StoredResult stored;
+  std::string record;  ///< text of record.json
+};
+
+/// A few steps from rest on a coarse mesh.
+Finished steps_by(const std::string& method, int ranks, const std::string& options = "") {
+  const TemporaryFolder folder;
+  std::vector<std::string> call{"/usr/bin/env",
+                                "OMPI_ALLOW_RUN_AS_ROOT=1",
+                                "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1",
+                                "OMPI_MCA_mpi_yield_when_idle=1",
+                                "mpirun",
+                                "--oversubscribe",
+                                "-n",
+                                std::to_string(ranks),
+                                TUNICA_PROGRAM,
+                                "run",
+                                scene,
+                                "--tier",
+                                "full3d",
+                                "--out",
+                                "r",
+                                "--quiet",
+                                "--no-report"};
+  for (const std::string& setting :
+       {std::string("time.beats=1"), std::string("accuracy.tolerance=1e-4"), std::string("inlet.period=0.02"),
+        std::string("time.step=1e-2"), std::string("mesh.wall_cells=1"), std::string("mesh.blood_cells=1"),
+        std::string("mesh.axial_cells=8"), std::string("mesh.around_cells=8"),
+        "solver.method=\"" + method + "\""})
+    call.insert(call.end(), {"--set", setting});
+  if (!options.empty()) call.insert(call.end(), {"--set", "solver.options=\"" + options + "\""});
+  Program run(call, folder.path());
+  EXPECT_EQ(run.wait(), 0) << run.errors();
+  const auto result = folder.path() / "r";
+  return {read_result(result), test_support::read_text(result / "record.json")};
+}
+
+// Newton ends at 3e-7 of each field by the scene's tolerance.
+TEST(full3d, TwoProcessesFindTheSameByEveryMethod) {
+  const Finished direct = steps_by("direct", 1);
+  for (const char* method : {"direct", "schwarz", "block"}) {
+    SCOPED_TRACE(method);
+    const Finished two = steps_by(method, 2);
+    const auto says = [&](const std::string& text) { return two.record.find(text) != std::string::npos; };
+    EXPECT_TRUE(says("\"ranks\": 2"));
+    EXPECT_TRUE(says("\"solver\": \"" + std::string(method) + "\""));
+    EXPECT_EQ(says("krylov_iterations"), std::string(method) != "direct");
+    const auto& expected = direct.stored.result.observables.columns();
+    const auto& found = two.stored.result.observables.columns();
+    ASSERT_EQ(found.size(), expected.size());
+    for (std::size_t c = 0; c < found.size(); ++c) {
+      ASSERT_EQ(found[c].values.size(), expected[c].values.size());
+      double size = 0, difference = 0;
+      for (std::size_t row = 0; row < found[c].values.size(); ++row) {
+        if (std::isnan(expected[c].values[row])) continue;
+        size = std::max(size, std::abs(expected[c].values[row]));
+        difference = std::max(difference, std::abs(found[c].values[row] - expected[c].values[row]));
+      }
+      EXPECT_LE(difference, 1e-6 * size) << found[c].name;
+    }
+  }
+}
+
+TEST(full3d, OptionsThatNothingUsesAreNamed) {
+  const Finished run = steps_by("direct", 1, "-ksp_rtoll 1e-3");
+  EXPECT_NE(run.record.find("does not ask for -ksp_rtoll"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace tunica
