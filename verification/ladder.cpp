@@ -25,11 +25,16 @@ Rung sliding_ends() {
   return {"sliding", {"geometry.ends=sliding"}, "clamped ends"};
 }
 
+Rung straight() {
+  return {"straight", {"geometry.kind=cylinder"}, "bend"};
+}
+
 }  // namespace
 
 const std::vector<Ladder>& ladders() {
   static const std::vector<Ladder> all{
-      {"lumped", "axisym", {compartments(), inertance()}, {natural_inlet(), sliding_ends()}}};
+      {"lumped", "axisym", {compartments(), inertance()}, {natural_inlet(), sliding_ends()}},
+      {"lumped", "full3d", {compartments(), inertance()}, {straight(), natural_inlet(), sliding_ends()}}};
   return all;
 }
 
