@@ -32,6 +32,26 @@ double thickness_ratio(const Scene& scene) {
 }
 constexpr double paper_thickness_ratio = 1 + 0.01 / 0.033;
 
+/// Of cells along the vessel: between clamped ends for how they bend the wall.
+double end_grading(const Scene& scene) {
+  if (scene.text("geometry.ends") != "clamped") return 1;
+  const bool quadratic = scene.text("mesh.element") == "quadratic";
+  return (quadratic ? corner_grading : 1) * element::bending_layer_grading(scene.number("geometry.radius"),
+                                                                           scene.number("geometry.thickness"),
+                                                                           scene.number("geometry.length"));
+}
+
+/// The fewest cells along a torus, from `cells` on, of which none turns by more than 45 degrees.
+int cells_along_bend(const Scene& scene, int cells) {
+  const double grading = end_grading(scene), length = scene.number("geometry.length");
+  if (grading > element::steepest_grading) return cells;
+  const double longest = 45 / scene.number("geometry.bend_angle") * length;
+  for (;; cells += 2) {
+    const auto lines = element::lines_along(length, cells, grading);
+    if (lines[cells / 2] - lines[cells / 2 - 1] <= longest) return cells;
+  }
+}
+
 }  // namespace
 
 Resolution resolution(const Scene& scene) {
@@ -45,6 +65,7 @@ Resolution resolution(const Scene& scene) {
   r.blood_cells = cells(2 * finer, across, tolerance);
   const double half_length = 0.5 * scene.number("geometry.length") / scene.number("geometry.radius");
   r.axial_cells = 2 * cells((7 + std::round(half_length / 50)) * finer, along, tolerance);
+  if (scene.text("geometry.kind") == "torus") r.axial_cells = cells_along_bend(scene, r.axial_cells);
   r.around_cells = 8 * cells(finer, along, tolerance);
   const auto take = [&](const char* key, int& count) {
     if (scene.has(key)) count = static_cast<int>(scene.integer(key));
@@ -108,7 +129,7 @@ VesselSpec vessel_spec(const Scene& scene, const Resolution& resolution, bool wi
           fmt::format("geometry.length = {:g} cm is {:.3g} times geometry.radius, too long for a mesh that "
                       "also resolves how the clamped ends bend the wall; shorten it",
                       spec.length, spec.length / spec.radius));
-    spec.end_grading = (spec.quadratic ? corner_grading : 1) * bending;
+    spec.end_grading = end_grading(scene);
     spec.interface_grading = spec.quadratic ? interface_grading : 1;
   }
   const bool tetrahedra = scene.text("mesh.element") == "bubble" || scene.text("mesh.cell") == "triangle";

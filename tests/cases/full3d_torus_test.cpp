@@ -67,6 +67,17 @@ TEST(TorusInSpace, FibresThatWindTheOtherWayMakeTheMirrorImage) {
       << "the sides of the bend are told apart";
 }
 
+TEST(TorusInSpace, HasCellsEnoughForItsBendUnlessTheyAreGiven) {
+  for (const char* angle : {"180", "270"}) {
+    const Result result = run_full3d(read_scene(
+        std::string(TUNICA_SOURCE_DIR) + "/scenes/torus_exp2.toml",
+        {std::string("geometry.bend_angle=") + angle, "accuracy.tolerance=5%", "wall.law=EXP1",
+         "time.mode=static", "inlet.waveform=pressure", "inlet.pressure=5 mmHg", "output.field_interval=0"}));
+    // Cells of 45 degrees at most, and shorter ones at both ends.
+    EXPECT_GE(result.record.resolution.at("axial_cells"), std::stoi(angle) / 45 + 2);
+  }
+}
+
 class StaticTorus : public testing::TestWithParam<const char*> {};
 
 TEST_P(StaticTorus, ConvergesUnderPressureAlone) {
