@@ -35,8 +35,8 @@ SolverChoice tried_solver_of(const Scene& scene) {
 /// Throws InvalidInput for what there is no memory for.
 std::unique_ptr<Setup> setup_in_memory(const Scene& scene) {
   auto setup = setup_of(scene);
-  const int unknowns = layout_of(setup->problem).unknowns();
-  check_memory(method_for(scene.text("solver.method"), unknowns), unknowns, available_memory());
+  const int rows = rows_of(setup->problem, layout_of(setup->problem));
+  check_memory(method_for(scene.text("solver.method"), rows), rows, available_memory());
   return setup;
 }
 

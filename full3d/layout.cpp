@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "full3d/layout.hpp"
 
+#include <algorithm>
 #include <numeric>
 
 #include "core/coupled/openings.hpp"
@@ -69,6 +70,14 @@ Layout layout_of(const Problem& problem) {
   spec.order.resize(mesh.points.size());
   std::iota(spec.order.begin(), spec.order.end(), 0);
   return Layout(spec);
+}
+
+int rows_of(const Problem& problem, const Layout& layout) {
+  if (problem.discretisation.element != Element::bubble) return layout.unknowns();
+  const auto& cells = problem.mesh.cells;
+  const auto bubbles =
+      std::count_if(cells.begin(), cells.end(), [](const Cell& c) { return c.part == Part::blood; });
+  return layout.unknowns() - 3 * static_cast<int>(bubbles);
 }
 
 }  // namespace tunica::full3d

@@ -16,4 +16,7 @@ Basis velocity_basis(Element element);
 /// The layout of a problem's state. Nodes are numbered as in the mesh.
 Layout layout_of(const Problem& problem);
 
+/// Rows of the linear systems: unknowns but for those of bubbles, which are condensed.
+int rows_of(const Problem& problem, const Layout& layout);
+
 }  // namespace tunica::full3d

@@ -43,7 +43,7 @@ void check_memory(const std::string& method, int unknowns, std::optional<double>
   if (!available || needed <= *available) return;
   const bool block_fits = method != "block" && estimated_memory("block", unknowns) <= *available;
   throw InvalidInput(fmt::format(
-      "the mesh makes {} unknowns, which take an estimated {:.3g} GiB with solver.method = \"{}\", and this "
+      "the mesh makes {} equations, which take an estimated {:.3g} GiB with solver.method = \"{}\", and this "
       "machine has {:.3g} GiB available; {}",
       unknowns, needed / gib, method, *available / gib,
       block_fits ? "write solver.method = \"block\", or ask for fewer cells (mesh.*_cells, "

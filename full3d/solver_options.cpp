@@ -53,7 +53,7 @@ bool is_option(const std::string& word) {
 }  // namespace
 
 std::string method_for(const std::string& name, int unknowns) {
-  constexpr int most_for_direct = 200000;
+  constexpr int most_for_direct = 300000;
   if (name != "auto") return name;
   return unknowns <= most_for_direct ? "direct" : "block";
 }

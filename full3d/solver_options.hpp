@@ -8,7 +8,7 @@
 
 namespace tunica::full3d {
 
-/// The method that "auto" stands for with so many unknowns: direct up to 200,000, beyond which its factors
+/// The method that "auto" stands for with so many unknowns: direct up to 300,000, beyond which its factors
 /// outgrow memory; other names as they are.
 std::string method_for(const std::string& name, int unknowns);
 

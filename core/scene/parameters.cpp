@@ -311,7 +311,7 @@ std::vector<Parameter> declare() {
       choice("solver.method", "auto", {"auto", "direct", "schwarz", "block"},
              "How the 3D tier solves its linear systems: direct factorises (MUMPS), schwarz is GMRES "
              "with additive Schwarz, block GMRES with a preconditioner by fields; auto is direct up "
-             "to 200,000 unknowns and block beyond."));
+             "to 300,000 unknowns and block beyond."));
   all.push_back({"solver.options",
                  Kind::text,
                  "",

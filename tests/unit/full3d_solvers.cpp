@@ -105,8 +105,8 @@ TEST(full3d, OptionsOfSolversAreRefusedByWord) {
 }
 
 TEST(full3d, MethodsAreChosenBySize) {
-  EXPECT_EQ(method_for("auto", 200000), "direct");
-  EXPECT_EQ(method_for("auto", 200001), "block");
+  EXPECT_EQ(method_for("auto", 300000), "direct");
+  EXPECT_EQ(method_for("auto", 300001), "block");
   EXPECT_EQ(method_for("schwarz", 10), "schwarz");
 }
 
