@@ -136,7 +136,7 @@ std::vector<BadScene> scenes() {
       {"one_handed_fibres",
        scene("[[wall.families]]\nangle = 40\n"),
        {},
-       {"wall.families are not in balance", "mirror image", "3D tier"}},
+       {"wall.families are not in balance", "mirror image", "full3d"}},
       {"fibres_of_unequal_weight",
        scene("[[wall.families]]\nangle = 40\n[[wall.families]]\nangle = -40\nweight = 0.9\n"),
        {},
