@@ -61,6 +61,10 @@ void set_inlet(const Scene& scene, Setup& setup) {
   Problem& problem = setup.problem;
   const Setup* const here = &setup;
   problem.inlet.value = [here](double time) { return here->inlet_value(time); };
+  // Blood that a pressure drives in may come with any profile, and brings energy for what disturbs it:
+  // without this profiles that vary around the section, which two dimensions know nothing of, grow without
+  // bound.
+  problem.inlet.backflow = 0.5;
   if (setup.inlet.is_pressure) {
     problem.inlet.kind = InletKind::pressure;
     return;

@@ -37,6 +37,7 @@ enum class InletKind {
 struct InletCondition {
   InletKind kind = InletKind::prescribed;
   std::function<double(double time)> value;  ///< flow into the vessel, cm3/s, or pressure, dyn/cm2
+  double backflow = 0;  ///< beta of physics::backflow_load: not for prescribed velocities
 };
 
 enum class OutletKind {

@@ -30,9 +30,11 @@ struct BoundaryTerms {
     terms.load = physics::pressure_load(state.pressure, area);
     if (boundary == Boundary::interface) return terms;
     terms.flow = physics::flow_density(state.velocity, state.mesh_velocity, area);
-    if (boundary != Boundary::outlet || conditions.outlet.backflow == 0) return terms;
-    const auto back = physics::backflow_load(conditions.outlet.backflow, conditions.blood.density, terms.flow,
-                                             state.velocity);
+    const double beta = boundary == Boundary::outlet  ? conditions.outlet.backflow
+                        : boundary == Boundary::inlet ? conditions.inlet.backflow
+                                                      : 0;
+    if (beta == 0) return terms;
+    const auto back = physics::backflow_load(beta, conditions.blood.density, terms.flow, state.velocity);
     for (int i = 0; i < 3; ++i) terms.load[i] = terms.load[i] + back[i];
     return terms;
   }
