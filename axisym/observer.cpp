@@ -155,18 +155,6 @@ void Observer::append_profile(double time, std::span<const double> y, observable
   }
 }
 
-observables::Table Observer::along_table() const {
-  observables::Table table;
-  table.add("time", "s");
-  table.add("z", "cm");
-  table.add("lumen_radius", "cm");
-  table.add("pressure", "dyn/cm2");
-  table.add("wall_shear_stress", "dyn/cm2");
-  table.add("radial_displacement", "cm");
-  table.add("von_mises.inner", "dyn/cm2");
-  return table;
-}
-
 void Observer::append_along(double time, std::span<const double> y, observables::Table& along) const {
   for (const InterfaceState& state : interface_.states(time, y)) {
     std::size_t column = 0;

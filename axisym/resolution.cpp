@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "axisym/gmsh.hpp"
 #include "axisym/structured.hpp"
@@ -14,23 +13,11 @@ namespace tunica::axisym {
 
 namespace {
 
-/// How much smaller than the bending layers need cells are at the ends, and cells at the interface than at
-/// the axis.
-constexpr double corner_grading = 16, interface_grading = 60;
-
-/// Cells for a tolerance when an error of 1 % takes `at_one_percent`, and errors fall with the given order.
-int cells(double at_one_percent, double order, double tolerance) {
-  return static_cast<int>(std::ceil(at_one_percent * std::pow(0.01 / tolerance, 1 / order) - 1e-9));
-}
+using coupled::corner_grading;
+using coupled::interface_grading;
 
 /// Nodes that a direct solver still copes with: some gigabytes, and seconds for a factorisation.
 constexpr double most_nodes = 1e5;
-
-/// Outer over inner radius; that of the paper's artery, on which the numbers of cells were found.
-double thickness_ratio(const Scene& scene) {
-  return 1 + scene.number("geometry.thickness") / scene.number("geometry.radius");
-}
-constexpr double paper_thickness_ratio = 1 + 0.01 / 0.033;
 
 void require_solvable(const Scene& scene, double nodes) {
   if (nodes <= most_nodes) return;
@@ -61,22 +48,7 @@ Mesh wall_alone(Mesh mesh) {
 }  // namespace
 
 Resolution resolution(const Scene& scene) {
-  const double tolerance = scene.number("accuracy.tolerance");
-  Resolution r;
-  // A linear element of the same error is the square of a quadratic one's size. Across the artery the errors
-  // of quadratic ones fall with the second order only: where fibres begin to be recruited the stress has a
-  // kink, within a cell. Along it they fall faster.
-  const bool quadratic = scene.text("mesh.element") == "quadratic";
-  const double finer = quadratic ? 1 : 3;
-  const double across = quadratic ? 2.1 : 2, through = quadratic ? 2.6 : 2, along = quadratic ? 4.3 : 2;
-  // A thick wall is strained most at the lumen: more cells, in proportion to the logarithm of its radii.
-  const double thick = std::max(1.0, std::log(thickness_ratio(scene)) / std::log(paper_thickness_ratio));
-  r.wall_cells = cells(thick * (quadratic ? 2.4 : 6), through, tolerance);
-  r.blood_cells = cells(2 * finer, across, tolerance);
-  // Half of the cells lie in the layers where the clamped ends bend the wall, whose number does not depend on
-  // the length; the rest follow the artery, a long one by cells of some fifty radii.
-  const double half_length = 0.5 * scene.number("geometry.length") / scene.number("geometry.radius");
-  r.axial_cells = 2 * cells((7 + std::round(half_length / 50)) * finer, along, tolerance);
+  Resolution r{coupled::cell_counts(scene)};
   if (scene.text("time.mode") == "static") {
     // A single state is cheap. With these the lumen of the paper's artery is right to 1e-5, wherever in the
     // wall fibres begin to be recruited: the stress has a kink there, which moves within a cell.
@@ -84,16 +56,7 @@ Resolution resolution(const Scene& scene) {
     r.blood_cells = std::max(r.blood_cells, 4);
     r.axial_cells = std::max(r.axial_cells, 40);
   }
-  const auto take = [&](const char* key, int& count) {
-    if (scene.has(key)) count = static_cast<int>(scene.integer(key));
-  };
-  take("mesh.wall_cells", r.wall_cells);
-  take("mesh.blood_cells", r.blood_cells);
-  take("mesh.axial_cells", r.axial_cells);
-  r.wall_cells = std::max(r.wall_cells, static_cast<int>(scene.count("wall.layers")));
-  r.local_tolerance = 0.03 * tolerance;
-  // Ten times less is not seen in any observable.
-  r.newton_tolerance = 0.1 * r.local_tolerance;
+  coupled::take_given(scene, r);
   return r;
 }
 
@@ -122,7 +85,7 @@ Mesh mesh_of(const Scene& scene, const Resolution& resolution, bool with_blood) 
   spec.wall_cells = resolution.wall_cells;
   spec.axial_cells = resolution.axial_cells;
   spec.blood = with_blood;
-  spec.wall_grading = std::max(1.0, thickness_ratio(scene) / paper_thickness_ratio);
+  spec.wall_grading = coupled::relative_thickness(scene);
   if (scene.text("geometry.ends") == "clamped") {
     const double bending = bending_layer_grading(spec.radius, thickness, spec.length);
     if (corner_grading * bending > steepest_grading)
@@ -131,9 +94,6 @@ Mesh mesh_of(const Scene& scene, const Resolution& resolution, bool with_blood) 
                       "also resolves how the clamped ends bend the wall; shorten it, or write geometry.ends "
                       "= \"sliding\" and inlet.profile = \"natural\"",
                       spec.length, spec.length / spec.radius));
-    // Strain and pressure are singular where the lumen ends at the clamped faces (as the distance to the
-    // power -0.4 for the wall, -0.5 for the blood), and the loss of pressure in the narrow ends depends on
-    // what becomes of them: cells shrink towards there by the same factor along both directions.
     // Linear elements have other errors to lose first.
     const bool resolve_corners = scene.text("mesh.element") == "quadratic";
     spec.end_grading = (resolve_corners ? corner_grading : 1) * bending;

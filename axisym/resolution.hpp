@@ -2,19 +2,12 @@
 #pragma once
 
 #include "axisym/mesh.hpp"
-#include "core/scene/scene.hpp"
+#include "core/coupled/cell_counts.hpp"
 
 namespace tunica::axisym {
 
-/// Cells and steps that a scene's tolerance asks for. The numbers were found by computing the paper's
-/// cylinder with each law against finer references (docs/verification/axisym.md).
-struct Resolution {
-  int wall_cells = 0;   ///< through the wall
-  int blood_cells = 0;  ///< from the axis to the wall
-  int axial_cells = 0;
-  double local_tolerance = 0;  ///< of a time step
-  double newton_tolerance = 0;
-};
+/// Cells and steps that a scene's tolerance asks for; blood cells from the axis to the wall.
+struct Resolution : coupled::CellCounts {};
 
 /// Cells that the scene sets itself are taken as they are.
 Resolution resolution(const Scene& scene);

@@ -47,21 +47,7 @@ double parabola_flux(const Problem& problem, double radius) {
 void set_inlet(const Scene& scene, Setup& setup) {
   Problem& problem = setup.problem;
   const Setup* const here = &setup;
-  problem.inlet.value = [here](double time) { return here->inlet_value(time); };
-  if (setup.inlet.is_pressure) {
-    problem.inlet.kind = InletKind::pressure;
-    return;
-  }
-  if (scene.text("inlet.profile") == "natural") {
-    problem.inlet.kind = InletKind::flow;
-    return;
-  }
-  if (scene.text("geometry.ends") == "sliding")
-    throw InvalidInput(
-        "inlet.profile = \"parabolic\" prescribes velocities on a section of fixed radius, which "
-        "geometry.ends = "
-        "\"sliding\" lets widen; write inlet.profile = \"natural\"");
-  problem.inlet.kind = InletKind::prescribed;
+  if (!coupled::needs_profile(scene, setup, problem.inlet)) return;
   problem.on(Boundary::inlet).velocity = {true, true};
   const double radius = inlet_radius(problem.mesh);
   const double height = extent(problem.mesh).inlet;

@@ -206,18 +206,6 @@ void Observer::append_profile(double time, std::span<const double> y, observable
   }
 }
 
-observables::Table Observer::along_table() const {
-  observables::Table table;
-  table.add("time", "s");
-  table.add("z", "cm");
-  table.add("lumen_radius", "cm");
-  table.add("pressure", "dyn/cm2");
-  table.add("wall_shear_stress", "dyn/cm2");
-  table.add("radial_displacement", "cm");
-  table.add("von_mises.inner", "dyn/cm2");
-  return table;
-}
-
 double Observer::shear_stress(const VesselShape::Directions& directions, const BloodSample& blood) const {
   const auto f = Tensor<double>::identity() + blood.displacement_gradient;
   const auto minors = cofactor(f);

@@ -24,11 +24,8 @@ class Observer final : public coupled::Observing {
   observables::Table observables_table() const override;
   void append_observables(double time, std::span<const double> y, observables::Table& table) const override;
   void append_profile(double time, std::span<const double> y, observables::Table& profiles) const override;
-  /// along.csv, with a row for each node of the interface on the line of P1, from the inlet to the outlet:
-  /// time[s], z[cm] (current, along the centreline), lumen_radius[cm] (current), pressure[dyn/cm2] at the
-  /// wall, wall_shear_stress[dyn/cm2] on the wall (positive downstream), radial_displacement[cm],
-  /// von_mises.inner[dyn/cm2] in the wall's inner surface.
-  observables::Table along_table() const override;
+  /// along.csv, a row for each node of the interface on the line of P1.
+  observables::Table along_table() const override { return observables::along_table(); }
   void append_along(double time, std::span<const double> y, observables::Table& along) const override;
 
   /// At the section's x axis; families act alike there when their |angle| and threshold are equal and the

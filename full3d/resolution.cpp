@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 #include "core/coupled/loading.hpp"
@@ -17,20 +16,8 @@ namespace tunica::full3d {
 
 namespace {
 
-/// How much smaller than the bending layers need cells are at the ends, and cells at the interface than at
-/// the core: as in two dimensions, where strain and pressure are singular at the clamped ends of the lumen.
-constexpr double corner_grading = 16, interface_grading = 60;
-
-/// Cells for a tolerance when an error of 1 % takes `at_one_percent`, and errors fall with the given order.
-int cells(double at_one_percent, double order, double tolerance) {
-  return static_cast<int>(std::ceil(at_one_percent * std::pow(0.01 / tolerance, 1 / order) - 1e-9));
-}
-
-/// Outer over inner radius; that of the paper's artery, on which the numbers of cells were found.
-double thickness_ratio(const Scene& scene) {
-  return 1 + scene.number("geometry.thickness") / scene.number("geometry.radius");
-}
-constexpr double paper_thickness_ratio = 1 + 0.01 / 0.033;
+using coupled::corner_grading;
+using coupled::interface_grading;
 
 /// Of cells along the vessel: between clamped ends for how they bend the wall.
 double end_grading(const Scene& scene) {
@@ -55,29 +42,11 @@ int cells_along_bend(const Scene& scene, int cells) {
 }  // namespace
 
 Resolution resolution(const Scene& scene) {
-  const double tolerance = scene.number("accuracy.tolerance");
-  const bool quadratic = scene.text("mesh.element") == "quadratic";
-  const double finer = quadratic ? 1 : 3;
-  const double across = quadratic ? 2.1 : 2, through = quadratic ? 2.6 : 2, along = quadratic ? 4.3 : 2;
-  Resolution r;
-  const double thick = std::max(1.0, std::log(thickness_ratio(scene)) / std::log(paper_thickness_ratio));
-  r.wall_cells = cells(thick * (quadratic ? 2.4 : 6), through, tolerance);
-  r.blood_cells = cells(2 * finer, across, tolerance);
-  const double half_length = 0.5 * scene.number("geometry.length") / scene.number("geometry.radius");
-  r.axial_cells = 2 * cells((7 + std::round(half_length / 50)) * finer, along, tolerance);
+  Resolution r{coupled::cell_counts(scene)};
   if (scene.text("geometry.kind") == "torus") r.axial_cells = cells_along_bend(scene, r.axial_cells);
-  r.around_cells = 8 * cells(finer, along, tolerance);
-  const auto take = [&](const char* key, int& count) {
-    if (scene.has(key)) count = static_cast<int>(scene.integer(key));
-  };
-  take("mesh.wall_cells", r.wall_cells);
-  take("mesh.blood_cells", r.blood_cells);
-  take("mesh.axial_cells", r.axial_cells);
-  take("mesh.around_cells", r.around_cells);
-  r.wall_cells = std::max(r.wall_cells, static_cast<int>(scene.count("wall.layers")));
-  r.local_tolerance = 0.03 * tolerance;
-  // Ten times less is not seen in any observable.
-  r.newton_tolerance = 0.1 * r.local_tolerance;
+  r.around_cells = 8 * coupled::cells_as_along(scene, 1);
+  coupled::take_given(scene, r);
+  if (scene.has("mesh.around_cells")) r.around_cells = static_cast<int>(scene.integer("mesh.around_cells"));
   return r;
 }
 
@@ -120,7 +89,7 @@ VesselSpec vessel_spec(const Scene& scene, const Resolution& resolution, bool wi
   spec.axial_cells = resolution.axial_cells;
   spec.sector = sector_of(scene);
   spec.blood = with_blood;
-  spec.wall_grading = std::max(1.0, thickness_ratio(scene) / paper_thickness_ratio);
+  spec.wall_grading = coupled::relative_thickness(scene);
   spec.quadratic = scene.text("mesh.element") == "quadratic";
   if (scene.text("geometry.ends") == "clamped") {
     const double bending = element::bending_layer_grading(spec.radius, thickness, spec.length);

@@ -60,24 +60,11 @@ double parabola_flux(const Problem& problem, double radius) {
 void set_inlet(const Scene& scene, Setup& setup) {
   Problem& problem = setup.problem;
   const Setup* const here = &setup;
-  problem.inlet.value = [here](double time) { return here->inlet_value(time); };
   // Blood that a pressure drives in may come with any profile, and brings energy for what disturbs it:
   // without this profiles that vary around the section, which two dimensions know nothing of, grow without
   // bound.
   problem.inlet.backflow = 0.5;
-  if (setup.inlet.is_pressure) {
-    problem.inlet.kind = InletKind::pressure;
-    return;
-  }
-  if (scene.text("inlet.profile") == "natural") {
-    problem.inlet.kind = InletKind::flow;
-    return;
-  }
-  if (scene.text("geometry.ends") == "sliding")
-    throw InvalidInput(
-        "inlet.profile = \"parabolic\" prescribes velocities on a section of fixed radius, which "
-        "geometry.ends = \"sliding\" lets widen; write inlet.profile = \"natural\"");
-  problem.inlet.kind = InletKind::prescribed;
+  if (!coupled::needs_profile(scene, setup, problem.inlet)) return;
   problem.on(Boundary::inlet).velocity = {true, true, true};
   const double radius = setup.shape.radius, peak = 1 / parabola_flux(problem, radius);
   problem.velocity = [here, radius, peak](const Point& place, double time) -> Vector<double> {

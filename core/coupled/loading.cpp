@@ -29,6 +29,20 @@ Element element_of(const Scene& scene) {
   return Element::quadratic;
 }
 
+bool needs_profile(const Scene& scene, const Loading& loading, InletCondition& inlet) {
+  const Loading* const here = &loading;
+  inlet.value = [here](double time) { return here->inlet_value(time); };
+  inlet.kind = loading.inlet.is_pressure                  ? InletKind::pressure
+               : scene.text("inlet.profile") == "natural" ? InletKind::flow
+                                                          : InletKind::prescribed;
+  if (inlet.kind != InletKind::prescribed) return false;
+  if (scene.text("geometry.ends") == "sliding")
+    throw InvalidInput(
+        "inlet.profile = \"parabolic\" prescribes velocities on a section of fixed radius, which "
+        "geometry.ends = \"sliding\" lets widen; write inlet.profile = \"natural\"");
+  return true;
+}
+
 OutletCondition outlet_of(const Scene& scene, const Loading& loading) {
   OutletCondition outlet;
   outlet.resistance = scene.number("outlet.resistance");

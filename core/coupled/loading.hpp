@@ -43,6 +43,10 @@ bool needs_blood(const Scene& scene, const Loading& loading);
 
 Element element_of(const Scene& scene);
 
+/// Sets kind and value of a scene's inlet. True when it prescribes a velocity, whose profile is the caller's
+/// to give. Throws InvalidInput for a profile on a section that may widen.
+bool needs_profile(const Scene& scene, const Loading& loading, InletCondition& inlet);
+
 /// The outlet of a scene. Throws InvalidInput for an RCR model without distal resistance.
 OutletCondition outlet_of(const Scene& scene, const Loading& loading);
 

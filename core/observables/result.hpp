@@ -112,6 +112,12 @@ Table profile_table();
 /// Appends one row to a table made by profile_table; rows of one time follow each other, inside to outside.
 void append(Table& table, const ProfilePoint& point);
 
+/// An empty table with the columns of along.csv, a row for each node along a line on the lumen's surface from
+/// the inlet to the outlet: time[s], z[cm] along the artery and lumen_radius[cm] (both current),
+/// pressure[dyn/cm2] at the wall, wall_shear_stress[dyn/cm2] on the wall (positive downstream),
+/// radial_displacement[cm], von_mises.inner[dyn/cm2] in the wall's inner surface.
+Table along_table();
+
 /// A fibre family of a wall point being recruited or released.
 struct Event {
   double time = none;  ///< s, of the run

@@ -84,6 +84,18 @@ void append(Table& table, const ProfilePoint& point) {
                   point.von_mises});
 }
 
+Table along_table() {
+  Table table;
+  table.add("time", "s");
+  table.add("z", "cm");
+  table.add("lumen_radius", "cm");
+  table.add("pressure", "dyn/cm2");
+  table.add("wall_shear_stress", "dyn/cm2");
+  table.add("radial_displacement", "cm");
+  table.add("von_mises.inner", "dyn/cm2");
+  return table;
+}
+
 Table event_table() {
   Table table;
   table.add("time", "s");
