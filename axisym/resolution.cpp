@@ -48,7 +48,7 @@ Mesh wall_alone(Mesh mesh) {
 }  // namespace
 
 Resolution resolution(const Scene& scene) {
-  Resolution r{coupled::cell_counts(scene)};
+  Resolution r = coupled::cell_counts(scene);
   if (scene.text("time.mode") == "static") {
     // A single state is cheap. With these the lumen of the paper's artery is right to 1e-5, wherever in the
     // wall fibres begin to be recruited: the stress has a kink there, which moves within a cell.

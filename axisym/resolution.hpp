@@ -7,7 +7,7 @@
 namespace tunica::axisym {
 
 /// Cells and steps that a scene's tolerance asks for; blood cells from the axis to the wall.
-struct Resolution : coupled::CellCounts {};
+using Resolution = coupled::CellCounts;
 
 /// Cells that the scene sets itself are taken as they are.
 Resolution resolution(const Scene& scene);
