@@ -24,6 +24,13 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+double median(std::vector<double> values) {
+  if (values.empty()) return observables::none;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
 time::Method method_from(const std::string& name) {
   if (name == "backward-euler") return time::Method::backward_euler;
   if (name == "generalized-alpha") return time::Method::generalized_alpha;
@@ -98,6 +105,7 @@ class VesselRun final : public TierRun {
     judge_steps();
     vessel_->conclude(result_.record);
     result_.record.solve_seconds = seconds();
+    result_.record.median_step_seconds = median(step_seconds_);
     return std::move(result_);
   }
 
@@ -269,7 +277,9 @@ class VesselRun final : public TierRun {
         return;
       }
       if (simulation_.time() < stops_[next_stop_].time) {
+        const auto stepping = Clock::now();
         simulation_.advance(end_);
+        step_seconds_.push_back(seconds_since(stepping));
         find_events(between);
       }
       for (; next_stop_ < stops_.size() && stops_[next_stop_].time <= simulation_.time(); ++next_stop_) {
@@ -346,6 +356,7 @@ class VesselRun final : public TierRun {
                    {"last_beat_begun", last_beat_begun()},
                    {"event_values", pack(event_values_)},
                    {"events", log_.save()},
+                   {"step_seconds", pack(step_seconds_)},
                    {"counts",
                     {result_.record.newton_iterations, result_.record.linear_iterations,
                      result_.record.resolution["factorisations"].get<long>(), static_.load_steps,
@@ -369,6 +380,7 @@ class VesselRun final : public TierRun {
       for (auto& stop : stops_) stop.begins_last_beat = false;
     event_values_ = unpack(saved.state.at("event_values"));
     log_.restore(saved.state.at("events"), result_.events);
+    step_seconds_ = unpack(saved.state.at("step_seconds"));
     const auto counts = saved.state.at("counts").get<std::vector<long>>();
     before_ = {counts.at(0), counts.at(1), counts.at(2)};
     static_ = {
@@ -396,6 +408,7 @@ class VesselRun final : public TierRun {
   } before_;  ///< the run was resumed
   std::size_t next_stop_ = 0;
   std::vector<double> event_values_;
+  std::vector<double> step_seconds_;  ///< wall time of each step after the start, of all that were resumed
   Result result_;
 };
 

@@ -26,6 +26,9 @@ struct RunRecord {
   long rejected_steps = 0;
   double setup_seconds = 0;
   double solve_seconds = 0;
+  /// Median over the accepted time steps, what was tried in vain before each included; `none` from tiers
+  /// without meshes and where there are no steps.
+  double median_step_seconds = observables::none;
   bool converged = false;
   bool interrupted = false;
   std::string failure;               ///< where and why the solver gave up; empty when it did not

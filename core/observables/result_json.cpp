@@ -91,6 +91,7 @@ Json from_record(const RunRecord& record) {
                 {"resolution", record.resolution.dump()},
                 {"setup_seconds", record.setup_seconds},
                 {"solve_seconds", record.solve_seconds},
+                {"median_step_seconds", binary(std::vector<double>{record.median_step_seconds})},
                 {"converged", record.converged},
                 {"interrupted", record.interrupted},
                 {"failure", record.failure},
@@ -106,6 +107,7 @@ RunRecord to_record(const Json& value) {
   record.resolution = nlohmann::ordered_json::parse(value.at("resolution").get<std::string>());
   record.setup_seconds = value.at("setup_seconds");
   record.solve_seconds = value.at("solve_seconds");
+  record.median_step_seconds = numbers<double>(value.at("median_step_seconds")).at(0);
   record.converged = value.at("converged");
   record.interrupted = value.at("interrupted");
   record.failure = value.at("failure");

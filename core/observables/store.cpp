@@ -140,6 +140,8 @@ std::string record_text(const Scene& scene, const RunRecord& run) {
   record["linear_iterations"] = run.linear_iterations;
   record["rejected_steps"] = run.rejected_steps;
   record["seconds"] = {{"setup", run.setup_seconds}, {"solve", run.solve_seconds}};
+  if (!observables::is_none(run.median_step_seconds))
+    record["seconds"]["median_step"] = run.median_step_seconds;
   record["peak_memory_bytes"] = peak_memory_bytes();
   record["converged"] = run.converged;
   record["interrupted"] = run.interrupted;

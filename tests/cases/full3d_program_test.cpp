@@ -118,6 +118,24 @@ TEST(Ranks, TorusWithRecruitmentIsTheSameOnAny) {
   EXPECT_GT(read_result(one.path() / "r").result.events.rows(), 0U) << "nothing is recruited";
 }
 
+TEST(Record, HoldsTheMedianTimeOfAStepOfTiersWithMeshes) {
+  for (const std::string tier : {"lumped", "axisym", "full3d"}) {
+    const TemporaryFolder folder;
+    Arguments arguments = run_with(one_beat);
+    *(std::find(arguments.begin(), arguments.end(), "--tier") + 1) = tier;
+    const Ended ended = test_support::tunica(arguments, folder.path());
+    ASSERT_EQ(ended.code, 0) << ended.errors;
+    const auto record = read_result(folder.path() / "r").record;
+    const auto& seconds = record.at("seconds");
+    ASSERT_EQ(seconds.contains("median_step"), tier != "lumped");
+    if (tier == "lumped") continue;
+    const double median = seconds.at("median_step"), solve = seconds.at("solve"), steps = record.at("steps");
+    // Half of the steps take as long or longer; none is computed within a microsecond.
+    EXPECT_LE(median * steps / 2, solve) << tier;
+    EXPECT_GT(median, 1e-6) << tier;
+  }
+}
+
 /// Processes that one has started, by their rank in the world; 0 for ranks that are not there.
 pid_t process_of_rank(pid_t parent, int rank) {
   std::ifstream children("/proc/" + std::to_string(parent) + "/task/" + std::to_string(parent) + "/children");

@@ -66,6 +66,7 @@ Checkpoint rich_checkpoint() {
   record.rejected_steps = 5;
   record.setup_seconds = 0.1;
   record.solve_seconds = 0.3;
+  record.median_step_seconds = 0.02;
   record.interrupted = true;
   record.remarks = {"one", "two"};
   record.findings = {"three"};
