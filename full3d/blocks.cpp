@@ -5,10 +5,12 @@
 #include <array>
 #include <cmath>
 
+#include "full3d/rigid_motions.hpp"
+
 namespace tunica::full3d {
 
 Blocks::Blocks(const Layout& layout, const std::vector<int>& own, MPI_Comm communicator)
-    : communicator_(communicator) {
+    : communicator_(communicator), layout_(layout), own_(own) {
   field_.reserve(own.size());
   for (const int u : own) {
     const std::size_t entry = layout.entry(u);
@@ -97,42 +99,110 @@ OwnedIndices Blocks::indices(const std::vector<PetscInt>& list) const {
   return indices;
 }
 
-void Blocks::split(PC pc) const {
-  const auto is_split = [](PC of) {
-    PetscBool split = PETSC_FALSE;
-    check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(of), PCFIELDSPLIT, &split),
-          "PetscObjectTypeCompare");
-    return split == PETSC_TRUE;
-  };
-  if (!is_split(pc)) return;
+namespace {
+
+bool is_of_type(PC pc, PCType type) {
+  PetscBool is = PETSC_FALSE;
+  check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(pc), type, &is), "PetscObjectTypeCompare");
+  return is == PETSC_TRUE;
+}
+
+/// The solvers of the two blocks of a Schur complement.
+std::array<KSP, 2> solvers_of(PC pc) {
+  PetscInt count = 0;
+  KSP* solvers = nullptr;
+  check(PCFieldSplitGetSubKSP(pc, &count, &solvers), "PCFieldSplitGetSubKSP");
+  const std::array<KSP, 2> both{solvers[0], solvers[1]};
+  check(PetscFree(solvers), "PetscFree");
+  return both;
+}
+
+PC preconditioner(KSP solver) {
+  PC pc = nullptr;
+  check(KSPGetPC(solver, &pc), "KSPGetPC");
+  return pc;
+}
+
+int component_of(const Layout& layout, std::size_t entry) {
+  const std::size_t begin = entry >= layout.velocity_begin() ? layout.velocity_begin() : 0;
+  return static_cast<int>((entry - begin) % layout.components());
+}
+
+}  // namespace
+
+void Blocks::split(PC pc, const Mesh& vessel, const BloodVolumes& volumes) {
+  if (!is_of_type(pc, PCFIELDSPLIT)) return;
   std::vector<PetscInt> motion, pressure, mesh, velocity;
+  std::vector<PlacedComponent> components;  // of velocity
+  PressureComplement::Rows rows;
+  rows.viscosity = volumes.viscosity;
+  // The layout finds the node of a pressure by a search.
+  std::vector<double> volume_of_pressure(layout_.pressures());
+  for (int node = 0; node < layout_.nodes(); ++node)
+    if (layout_.has_pressure(node))
+      volume_of_pressure[layout_.pressure(node) - layout_.pressure_begin()] = volumes.pressure[node];
   std::array<int, 2> own{static_cast<int>(field_.size()), 0}, begin{};
   for (const Field field : field_)
     if (field < Field::pressure) ++own[1];
   MPI_Exscan(own.data(), begin.data(), 2, MPI_INT, MPI_SUM, communicator_);
   for (std::size_t k = 0; k < field_.size(); ++k) {
     const auto row = begin[0] + static_cast<PetscInt>(k);
+    const std::size_t entry = layout_.entry(own_[k]);
     if (field_[k] >= Field::pressure) {
       pressure.push_back(row);
+      rows.volume.push_back(
+          field_[k] == Field::scalar ? 0 : volume_of_pressure[entry - layout_.pressure_begin()]);
       continue;
     }
+    const int node = layout_.node_of(entry);
     // Blocks within motion are numbered as its rows.
     (field_[k] == Field::mesh ? mesh : velocity).push_back(begin[1] + static_cast<PetscInt>(motion.size()));
+    if (field_[k] != Field::mesh) components.push_back({&vessel.points[node], component_of(layout_, entry)});
     motion.push_back(row);
+    rows.node.push_back(node);
+    rows.mass.push_back(volumes.density * volumes.velocity[node]);
+    using Motion = PressureComplement::Rows::Motion;
+    rows.motion.push_back(field_[k] == Field::velocity                             ? Motion::inside
+                          : field_[k] == Field::wall && volumes.velocity[node] > 0 ? Motion::surface
+                                                                                   : Motion::other);
   }
   check(PCFieldSplitSetIS(pc, "motion", indices(motion).get()), "PCFieldSplitSetIS");
   check(PCFieldSplitSetIS(pc, "pressure", indices(pressure).get()), "PCFieldSplitSetIS");
   check(PCSetUp(pc), "PCSetUp");
-  PetscInt count = 0;
-  KSP* solvers = nullptr;
-  check(PCFieldSplitGetSubKSP(pc, &count, &solvers), "PCFieldSplitGetSubKSP");
-  PC inner = nullptr;
-  check(KSPSetFromOptions(solvers[0]), "KSPSetFromOptions");
-  check(KSPGetPC(solvers[0], &inner), "KSPGetPC");
-  check(PetscFree(solvers), "PetscFree");
-  if (!is_split(inner)) return;
-  check(PCFieldSplitSetIS(inner, "mesh", indices(mesh).get()), "PCFieldSplitSetIS");
-  check(PCFieldSplitSetIS(inner, "velocity", indices(velocity).get()), "PCFieldSplitSetIS");
+  const auto [of_motion, of_pressure] = solvers_of(pc);
+  check(KSPSetFromOptions(of_motion), "KSPSetFromOptions");
+  check(KSPSetFromOptions(of_pressure), "KSPSetFromOptions");
+  const PC inner = preconditioner(of_motion);
+  if (is_of_type(inner, PCFIELDSPLIT)) {
+    check(PCFieldSplitSetIS(inner, "mesh", indices(mesh).get()), "PCFieldSplitSetIS");
+    const OwnedIndices of_velocity = indices(velocity);
+    const OwnedNullSpace rigid = rigid_motions(components, communicator_);
+    check(PetscObjectCompose(reinterpret_cast<PetscObject>(of_velocity.get()), "nearnullspace",
+                             reinterpret_cast<PetscObject>(rigid.get())),
+          "PetscObjectCompose");
+    check(PCFieldSplitSetIS(inner, "velocity", of_velocity.get()), "PCFieldSplitSetIS");
+  }
+  if (const PC shell = preconditioner(of_pressure); is_of_type(shell, PCSHELL)) {
+    complement_ = std::make_unique<PressureComplement>(std::move(rows), communicator_);
+    complement_->give_to(shell);
+  }
+}
+
+void Blocks::update(PC pc, double rate_coefficient) {
+  if (!complement_) return;
+  const auto [of_motion, of_pressure] = solvers_of(pc);
+  check(KSPSetUp(of_motion), "KSPSetUp");
+  Mat complement = nullptr;
+  check(KSPGetOperators(of_pressure, &complement, nullptr), "KSPGetOperators");
+  const PetscScalar *row = nullptr, *column = nullptr;
+  std::vector<double> scale;
+  check(VecGetArrayRead(rows_.get(), &row), "VecGetArrayRead");
+  check(VecGetArrayRead(columns_.get(), &column), "VecGetArrayRead");
+  for (std::size_t k = 0; k < field_.size(); ++k)
+    if (field_[k] >= Field::pressure) scale.push_back(row[k] * column[k]);
+  check(VecRestoreArrayRead(columns_.get(), &column), "VecRestoreArrayRead");
+  check(VecRestoreArrayRead(rows_.get(), &row), "VecRestoreArrayRead");
+  complement_->update(of_motion, complement, rate_coefficient, scale);
 }
 
 }  // namespace tunica::full3d

@@ -1,12 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "full3d/layout.hpp"
+#include "full3d/mesh.hpp"
 #include "full3d/petsc.hpp"
+#include "full3d/pressure_complement.hpp"
 
 namespace tunica::full3d {
+
+/// The blood that nodes of velocity and pressure stand for, by node (cm3), and what it is.
+struct BloodVolumes {
+  std::vector<double> velocity, pressure;
+  double density, viscosity;
+};
 
 /// The fields of the coupled equations as blocks of a rank's rows: mesh, the displacement in the blood;
 /// velocity, that of the blood continued by the motion of the wall; pressure, with the scalars.
@@ -24,8 +33,11 @@ class Blocks {
   void unscale_solution(Vec solution) const;
 
   /// Gives blocks to a PCFIELDSPLIT: "motion" and "pressure", and where motion is split in its turn
-  /// "mesh" and "velocity". Other preconditioners are left as they are. Needs the operators to be set.
-  void split(PC pc) const;
+  /// "mesh" and "velocity", the latter with rigid motions as near-null space. A PCSHELL for pressure becomes
+  /// a PressureComplement. Other preconditioners are left as they are. Needs the operators to be set.
+  void split(PC pc, const Mesh& mesh, const BloodVolumes& volumes);
+  /// Follows a change of the matrix, which has been scaled.
+  void update(PC pc, double rate_coefficient);
 
  private:
   enum class Field { wall, mesh, velocity, pressure, scalar };
@@ -33,8 +45,11 @@ class Blocks {
   OwnedIndices indices(const std::vector<PetscInt>& list) const;
 
   MPI_Comm communicator_;
+  const Layout& layout_;
+  std::vector<int> own_;
   std::vector<Field> field_;  ///< of the rank's rows
   OwnedVector rows_, columns_;
+  std::unique_ptr<PressureComplement> complement_;
 };
 
 }  // namespace tunica::full3d

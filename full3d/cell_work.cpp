@@ -288,6 +288,27 @@ class Work final : public CellWork {
     }
   }
 
+  void add_blood_volumes(std::span<double> velocity, std::span<double> pressure) const override {
+    std::vector<typename Tables<Width, SideWidth>::BloodPoint> points;
+    for (const Nodes& cell : blood_) {
+      tables_.blood(cell.cell, points);
+      double volume = 0, sum = 0;
+      std::array<double, Width> squares{};
+      for (const auto& point : points) {
+        volume += point.weight;
+        for (std::size_t k = 0; k < cell.velocity.size(); ++k) {
+          const double square = point.weight * point.velocity.lift[0][k] * point.velocity.lift[0][k];
+          squares[k] += square;
+          sum += square;
+        }
+        for (std::size_t k = 0; k < cell.pressure.size(); ++k)
+          pressure[cell.pressure[k]] += point.weight * point.pressure.lift[0][k];
+      }
+      for (std::size_t k = 0; k < cell.velocity.size(); ++k)
+        velocity[cell.velocity[k]] += volume * squares[k] / sum;
+    }
+  }
+
  private:
   /// Nodes of a cell by the fields of its part.
   struct Nodes {

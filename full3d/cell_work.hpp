@@ -49,6 +49,9 @@ class CellWork {
   virtual double flow(const coupled::Stage& stage, std::span<const double> y, Boundary boundary) const = 0;
   /// Adds the volumes (cm3) of the nodes of a part to `volumes`, by node.
   virtual void add_volumes(Part part, std::span<double> volumes) const = 0;
+  /// Adds the blood's volume to the nodes of velocity, shared out as the squares of their shape functions so
+  /// that none is negative, and to those of pressure, both by node (cm3).
+  virtual void add_blood_volumes(std::span<double> velocity, std::span<double> pressure) const = 0;
 };
 
 /// Work on the cells of these indices, on so many threads; results do not depend on their number. With

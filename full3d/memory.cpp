@@ -18,9 +18,10 @@ constexpr double gib = 1024.0 * 1024 * 1024;
 
 double estimated_memory(const std::string& method, int unknowns) {
   const double n = unknowns;
-  // The matrix with the cells' entries that it is summed of, and copies of its blocks.
+  // The matrix with the cells' entries that it is summed of, and copies of its blocks; and, without factors
+  // of the whole, those of the parts that are solved exactly.
   const double matrix = 10e3 * n;
-  if (method != "direct") return matrix + 10e3 * n;
+  if (method != "direct") return matrix + 20e3 * n;
   // Factors as they were measured, and what MUMPS takes besides.
   const double factor_entries = 7.4 * std::pow(n, 1.495);
   return matrix + 1.6 * 8 * factor_entries;

@@ -37,6 +37,7 @@ using OwnedMatrix = Owned<Mat, MatDestroy>;
 using OwnedVector = Owned<Vec, VecDestroy>;
 using OwnedSolver = Owned<KSP, KSPDestroy>;
 using OwnedIndices = Owned<IS, ISDestroy>;
+using OwnedNullSpace = Owned<MatNullSpace, MatNullSpaceDestroy>;
 using OwnedPartitioning = Owned<MatPartitioning, MatPartitioningDestroy>;
 
 /// PETSc and MPI for as long as it lives: one in a program. PETSc's own options come from the environment

@@ -35,6 +35,11 @@ void Ranks::sum_to_leader(std::span<double> values) const {
              static_cast<int>(values.size()), MPI_DOUBLE, MPI_SUM, 0, communicator_);
 }
 
+void Ranks::sum_to_all(std::span<double> values) const {
+  MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_DOUBLE, MPI_SUM,
+                communicator_);
+}
+
 bool Ranks::all(bool value) const {
   int mine = value ? 1 : 0, least = 0;
   MPI_Allreduce(&mine, &least, 1, MPI_INT, MPI_MIN, communicator_);

@@ -29,6 +29,8 @@ class Ranks {
   void broadcast(std::string& text) const;
   /// Sums over the ranks; the result is on the leader alone.
   void sum_to_leader(std::span<double> values) const;
+  /// The same, with the result on all ranks.
+  void sum_to_all(std::span<double> values) const;
   /// On all ranks, the same to the last bit.
   bool all(bool value) const;
   /// Ends the processes of all ranks, with an error.

@@ -127,6 +127,16 @@ void Share::make_solver() {
   blocks_ = std::make_unique<Blocks>(layout_, unknowns, ranks_.communicator());
 }
 
+BloodVolumes Share::blood_volumes() const {
+  const std::size_t nodes = problem_.mesh.points.size();
+  BloodVolumes volumes{std::vector<double>(nodes), std::vector<double>(nodes), problem_.blood.density,
+                       problem_.blood.viscosity};
+  work_->add_blood_volumes(volumes.velocity, volumes.pressure);
+  ranks_.sum_to_all(volumes.velocity);
+  ranks_.sum_to_all(volumes.pressure);
+  return volumes;
+}
+
 void Share::assemble(const LoadedStage& stage, std::span<const double> y) {
   if (!matrix_) make_matrix();
   work_->tangent(stage, y, std::span(values_).first(own_entries_));
@@ -145,8 +155,9 @@ bool Share::factorise(const LoadedStage& stage, std::span<const double> y) {
   PC pc = nullptr;
   check(KSPGetPC(solver_.get(), &pc), "KSPGetPC");
   if (blocks_) blocks_->scale(stage.stage.coefficient, matrix_.get());
-  if (blocks_ && is_first) blocks_->split(pc);
+  if (blocks_ && is_first) blocks_->split(pc, problem_.mesh, blood_volumes());
   check(KSPSetUp(solver_.get()), "KSPSetUp");
+  if (blocks_) blocks_->update(pc, stage.stage.coefficient);
   PCFailedReason reason{};
   check(PCGetFailedReason(pc, &reason), "PCGetFailedReason");
   entries_ = factor_entries(pc);

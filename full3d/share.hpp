@@ -57,6 +57,7 @@ class Share {
   bool solve_rows(std::span<double> right_hand_side);
   void make_matrix();
   void make_solver();
+  BloodVolumes blood_volumes() const;
 
   const Problem& problem_;
   const Layout& layout_;
