@@ -77,6 +77,7 @@ class Full3dVessel final : public coupled::Vessel {
   }
 
   void conclude(RunRecord& record) const override {
+    record.resolution["assembly_seconds"] = assembler_.share().assembly_seconds();
     if (const long solutions = assembler_.share().solutions(); solutions > 0) {
       record.resolution["krylov_iterations"] = assembler_.krylov_iterations();
       record.resolution["krylov_solutions"] = solutions;

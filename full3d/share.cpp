@@ -2,6 +2,7 @@
 #include "full3d/share.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 
@@ -11,6 +12,23 @@
 #include "full3d/solver_options.hpp"
 
 namespace tunica::full3d {
+
+namespace {
+
+/// Adds the time that it lives to a sum, s.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& sum) : sum_(sum) {}
+  ~Stopwatch() { sum_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  double& sum_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace
 
 Share::Share(const Problem& problem, const Layout& layout, const Ranks& ranks, SolverChoice choice)
     : problem_(problem), layout_(layout), ranks_(ranks), choice_(std::move(choice)) {
@@ -68,6 +86,7 @@ void Share::share_rows(const std::vector<int>& owner_of_cell) {
 
 LeastJacobian Share::residual(const LoadedStage& stage, std::span<const double> y,
                               std::span<double> residual) {
+  const Stopwatch watch(assembly_seconds_);
   std::fill(residual.begin(), residual.end(), 0.0);
   LeastJacobian least = work_->residual(stage, y, residual);
   if (problem_.loads.blood_force || problem_.loads.wall_force || problem_.loads.mesh_force ||
@@ -139,6 +158,7 @@ BloodVolumes Share::blood_volumes() const {
 
 void Share::assemble(const LoadedStage& stage, std::span<const double> y) {
   if (!matrix_) make_matrix();
+  const Stopwatch watch(assembly_seconds_);
   work_->tangent(stage, y, std::span(values_).first(own_entries_));
   if (ranks_.leads()) {
     std::size_t next = own_entries_;

@@ -43,6 +43,8 @@ class Share {
   long iterations() const { return iterations_; }
   long solutions() const { return solutions_; }  ///< with Krylov methods
   long latest_iterations() const { return latest_iterations_; }
+  /// Time in residuals and matrices so far, the sums over ranks included, s.
+  double assembly_seconds() const { return assembly_seconds_; }
   const std::string& method() const { return choice_.name; }
   const CellWork& work() const { return *work_; }
   /// Row or column of PETSc's matrix of an unknown, -1 where it is condensed.
@@ -74,7 +76,7 @@ class Share {
   std::vector<double> values_;
   /// For Krylov methods.
   std::unique_ptr<Blocks> blocks_;
-  double entries_ = 0;
+  double entries_ = 0, assembly_seconds_ = 0;
   long iterations_ = 0, latest_iterations_ = 1, solutions_ = 0;
 };
 
