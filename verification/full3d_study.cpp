@@ -84,18 +84,6 @@ double difference(const std::string& name, const MeasuredRun& a, const MeasuredR
   return greatest;
 }
 
-/// Greatest difference of the times at which fibres are recruited or released, s; `none` without such.
-double event_difference(const MeasuredRun& a, const MeasuredRun& b) {
-  const auto* ours = a.stored.result.events.find("time");
-  const auto* theirs = b.stored.result.events.find("time");
-  if (!ours || !theirs || theirs->values.empty()) return observables::none;
-  if (ours->values.size() != theirs->values.size()) return INFINITY;
-  double greatest = 0;
-  for (std::size_t k = 0; k < ours->values.size(); ++k)
-    greatest = std::max(greatest, std::abs(ours->values[k] - theirs->values[k]));
-  return greatest;
-}
-
 std::string shown(double value, const char* format) {
   return observables::is_none(value) ? "" : fmt::format(fmt::runtime(format), value);
 }

@@ -51,9 +51,10 @@ long MeasuredRun::count(const char* key) const {
 
 MeasuredRun measured_run(const std::filesystem::path& program, const std::filesystem::path& scene,
                          const std::string& tier, const std::vector<std::string>& overrides,
-                         const std::filesystem::path& folder) {
+                         const std::filesystem::path& folder, Folder earlier) {
   std::vector<std::string> arguments{program.string(), "run",           scene.string(), "--tier", tier,
                                      "--out",          folder.string(), "--quiet"};
+  if (earlier == Folder::resumed) arguments.emplace_back("--resume");
   for (const std::string& override : overrides) {
     arguments.emplace_back("--set");
     arguments.push_back(override);
@@ -83,6 +84,17 @@ double error_of(const std::string& column, const MeasuredRun& run, const Measure
   for (std::size_t k = 0; k < theirs.size(); ++k) largest = std::max(largest, std::abs(ours[k] - theirs[k]));
   if (observables::is_none(*least) || !(*greatest > *least)) return observables::none;
   return largest / (*greatest - *least);
+}
+
+double event_difference(const MeasuredRun& run, const MeasuredRun& reference) {
+  const auto* ours = run.stored.result.events.find("time");
+  const auto* theirs = reference.stored.result.events.find("time");
+  if (!ours || !theirs || theirs->values.empty()) return observables::none;
+  if (ours->values.size() != theirs->values.size()) return INFINITY;
+  double greatest = 0;
+  for (std::size_t k = 0; k < ours->values.size(); ++k)
+    greatest = std::max(greatest, std::abs(ours->values[k] - theirs->values[k]));
+  return greatest;
 }
 
 }  // namespace tunica::verification

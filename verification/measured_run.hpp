@@ -20,14 +20,22 @@ struct MeasuredRun {
   long count(const char* key) const;
 };
 
-/// Runs `program run SCENE --tier TIER --out FOLDER --quiet --set ...` and reads its result.
+/// What becomes of an earlier result of the run in its folder.
+enum class Folder { anew, resumed };
+
+/// Runs `program run SCENE --tier TIER --out FOLDER --quiet --set ...` and reads its result,
+/// with --resume one that is whole there already.
 /// Throws std::runtime_error when the program cannot be started or does not exit 0.
 MeasuredRun measured_run(const std::filesystem::path& program, const std::filesystem::path& scene,
                          const std::string& tier, const std::vector<std::string>& overrides,
-                         const std::filesystem::path& folder);
+                         const std::filesystem::path& folder, Folder earlier = Folder::anew);
 
 /// Greatest difference of a column over all rows, relative to the reference's range in them; `none` where
 /// the law has no such quantity or it does not move. The rows' times have to be the same.
 double error_of(const std::string& column, const MeasuredRun& run, const MeasuredRun& reference);
+
+/// Greatest difference of the times at which fibres are recruited or released, s; `none` where the reference
+/// has no such times, infinite where the run has more or fewer.
+double event_difference(const MeasuredRun& run, const MeasuredRun& reference);
 
 }  // namespace tunica::verification
