@@ -5,9 +5,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <Eigen/Dense>
-#include <algorithm>
-#include <cmath>
 #include <exception>
 #include <filesystem>
 #include <string>
@@ -17,6 +14,7 @@
 #include "core/observables/result.hpp"
 #include "verification/line_chart.hpp"
 #include "verification/page.hpp"
+#include "verification/ripple_lines.hpp"
 
 using namespace tunica;
 using namespace tunica::verification;
@@ -43,11 +41,8 @@ constexpr Case cases[] = {
     {"EXP2", "quadratic", 64, 3, 1e-3, 45},          {"EXP2", "quadratic", 128, 8, 1e-3, 45},
     {"EXP2", "quadratic", 128, 8, 1e-4, 45},         {"EXP2", "bubble", 128, 3, 1e-3, 45}};
 
-struct Line {
-  std::vector<double> z, radius;
-};
 struct Outcome {
-  Line lumen;              ///< at the last time that was reached
+  LumenLine lumen;         ///< at the last time that was reached
   double middle_cell = 0;  ///< length of the cells at mid-length, in thicknesses
   double amplitude = 0;    ///< greatest departure from a smooth shape, in thicknesses
   double wave_length = 0;  ///< in thicknesses; 0 without ripples
@@ -55,24 +50,6 @@ struct Outcome {
   long steps = 0;
   std::string ended = "at 0.15 s";
 };
-
-/// Departure of the lumen's radius from a cubic in the middle of the artery, where the ends are not felt.
-std::vector<std::pair<double, double>> ripples(const Line& line) {
-  std::vector<std::pair<double, double>> middle;
-  for (std::size_t k = 0; k < line.z.size(); ++k)
-    if (std::abs(line.z[k] - 0.5 * length) < 0.27 * length) middle.emplace_back(line.z[k], line.radius[k]);
-  const auto n = static_cast<Eigen::Index>(middle.size());
-  Eigen::MatrixXd powers(n, 4);
-  Eigen::VectorXd radius(n);
-  for (Eigen::Index k = 0; k < n; ++k) {
-    const double x = middle[k].first / length - 0.5;
-    powers.row(k) << 1, x, x * x, x * x * x;
-    radius[k] = middle[k].second;
-  }
-  const Eigen::VectorXd smooth = powers * powers.colPivHouseholderQr().solve(radius);
-  for (Eigen::Index k = 0; k < n; ++k) middle[k].second -= smooth[k];
-  return middle;
-}
 
 constexpr double visible = 0.01;  ///< of the thickness: from there on a ripple is one
 
@@ -102,28 +79,12 @@ Outcome run(const std::filesystem::path& file, const Case& c) {
   if (!result.record.failure.empty()) outcome.ended = fmt::format("gave up at {:.3f} s", rows.back());
   if (result.record.interrupted)
     outcome.ended = fmt::format("stopped after {} Newton iterations at {:.3f} s", iterations, rows.back());
-  const auto& time = result.along.find("time")->values;
-  const auto& z = result.along.find("z")->values;
-  const auto& radius = result.along.find("lumen_radius")->values;
-  for (std::size_t row = 0; row < time.size();) {
-    Line line;
-    const double now = time[row];
-    for (; row < time.size() && time[row] == now; ++row) {
-      line.z.push_back(z[row]);
-      line.radius.push_back(radius[row]);
-    }
-    const auto parts = ripples(line);
-    double greatest = 0;
-    int changes = 0;
-    for (std::size_t k = 0; k < parts.size(); ++k) {
-      greatest = std::max(greatest, std::abs(parts[k].second));
-      if (k > 0 && parts[k].second * parts[k - 1].second < 0) ++changes;
-    }
-    outcome.amplitude = greatest / thickness;
+  for (LumenLine& line : lumen_lines(result.along)) {
+    const Ripples found = ripples(line, length);
+    outcome.amplitude = found.amplitude / thickness;
     const bool ripples_now = outcome.amplitude > visible;
-    if (ripples_now && outcome.onset == 0) outcome.onset = now;
-    outcome.wave_length =
-        ripples_now && changes > 1 ? 2 * (parts.back().first - parts.front().first) / changes / thickness : 0;
+    if (ripples_now && outcome.onset == 0) outcome.onset = line.time;
+    outcome.wave_length = ripples_now ? found.wave_length / thickness : 0;
     outcome.lumen = std::move(line);
   }
   const auto& line = outcome.lumen.z;
@@ -180,7 +141,7 @@ int main(int count, char** arguments) {
       fmt::print("{}\n", name(c));
       std::fflush(stdout);
       outcomes.push_back(run(arguments[2], c));
-      const Line& line = outcomes.back().lumen;
+      const LumenLine& line = outcomes.back().lumen;
       for (std::size_t k = 0; k < line.z.size(); ++k)
         csv += fmt::format("\"{}\",{:.6g},{:.6g}\n", name(c), line.z[k], line.radius[k]);
       fmt::print("  {} steps, amplitude {:.3g} h, wave length {:.3g} h {}\n", outcomes.back().steps,
