@@ -11,6 +11,7 @@
 #include "axisym/remarks.hpp"
 #include "axisym/tangent_stability.hpp"
 #include "core/coupled/vessel_run.hpp"
+#include "core/element/gmsh_file.hpp"
 #include "core/error.hpp"
 #include "core/stability/warning.hpp"
 
@@ -98,6 +99,10 @@ class AxisymVessel final : public coupled::Vessel {
 std::string AxisymTier::refusal(const Scene& scene) const {
   if (scene.text("geometry.kind") == "torus")
     return "geometry.kind = \"torus\" is not axisymmetric; use a 3D tier, or kind = \"cylinder\"";
+  if (scene.text("geometry.kind") == "mesh" &&
+      element::gmsh_dimensions(scene.folder() / scene.text("geometry.file")) == 3)
+    return "geometry.file names physical volumes, of a vessel in space; use --tier full3d, or mesh its half "
+           "plane";
   if (scene.flag("wall.incompressible"))
     return "wall.incompressible = true is for the 0D tier; write false and a large wall.bulk_modulus (9e6 "
            "dyn/cm2 "

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "axisym/mesh.hpp"
+#include "core/coupled/gmsh_parts.hpp"
 
 namespace tunica::axisym {
 
@@ -21,14 +22,7 @@ Mesh read_gmsh(const std::filesystem::path& file);
 /// The same from text; `label` names it in messages.
 Mesh parse_gmsh(std::string_view text, const std::string& label);
 
-/// What the scene says of a mesh that it names.
-struct Expected {
-  double radius;      ///< geometry.radius, cm
-  std::string label;  ///< names the mesh in messages
-};
-
-/// Refuses (InvalidInput) a mesh in another unit of length: its radius at the inlet is more than 50 times
-/// geometry.radius or less than a 50th of it, or within 2 % of 10 times it (mm for cm).
-void check(const Mesh& mesh, const Expected& expected);
+/// Refuses (InvalidInput) a mesh in another unit of length, by its radius at the inlet.
+void check(const Mesh& mesh, const coupled::Expected& expected);
 
 }  // namespace tunica::axisym

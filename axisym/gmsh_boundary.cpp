@@ -6,29 +6,18 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <set>
 #include <string>
 #include <unordered_map>
 
 #include "axisym/mesh_check.hpp"
+#include "core/coupled/gmsh_parts.hpp"
 #include "core/error.hpp"
-#include "core/scene/message.hpp"
 
 namespace tunica::axisym {
 
 namespace {
 
-constexpr Boundary all_boundaries[] = {Boundary::axis,       Boundary::inlet, Boundary::outlet,
-                                       Boundary::interface,  Boundary::outer, Boundary::wall_inlet,
-                                       Boundary::wall_outlet};
-
 constexpr double near_side = 1e-6;  // of its length
-
-std::optional<Boundary> meaning(std::string_view text) {
-  for (const Boundary each : all_boundaries)
-    if (name(each) == text) return each;
-  return {};
-}
 
 class Marker {
  public:
@@ -41,7 +30,7 @@ class Marker {
   void mark() {
     collect_sides();
     refuse_hanging();
-    check_curves_exist();
+    coupled::check_boundaries_named(file_, 1, blood_, wall_);
     for (const GmshFile::Element& element : file_.elements)
       if (element.dimension == 1) name_side(element);
     const int sides = mesh_.sides();
@@ -86,42 +75,8 @@ class Marker {
     }
   }
 
-  void check_curves_exist() const {
-    std::set<std::string, std::less<>> used;
-    for (const GmshFile::Element& element : file_.elements)
-      if (element.dimension == 1)
-        used.insert(file_.groups[element.group].begin(), file_.groups[element.group].end());
-    const auto need = [&](Boundary boundary, const char* what) {
-      const std::string_view wanted = name(boundary);
-      if (used.contains(wanted)) return;
-      std::vector<std::string> others;
-      for (const std::string& each : used)
-        if (!meaning(each)) others.push_back(each);
-      const std::string near = scene::nearest(wanted, others);
-      refuse(fmt::format("there is no physical curve \"{}\"; give this name to {}{}", wanted, what,
-                         near.empty() ? "" : fmt::format(" (now {}?)", scene::in_quotes(near))));
-    };
-    if (blood_) {
-      need(Boundary::inlet, "the lower end of the blood");
-      need(Boundary::outlet, "the upper end of the blood");
-    }
-    if (wall_) {
-      need(Boundary::outer, "the outer surface of the wall");
-      need(Boundary::wall_inlet, "the lower end of the wall");
-      need(Boundary::wall_outlet, "the upper end of the wall");
-    }
-  }
-
   void name_side(const GmshFile::Element& line) {
-    std::optional<Boundary> boundary;
-    for (const std::string& each : file_.groups[line.group]) {
-      const auto found = meaning(each);
-      if (!found) continue;
-      if (boundary && boundary != found)
-        refuse(fmt::format("line {} is both \"{}\" and \"{}\"; give each curve one of these names", line.tag,
-                           name(*boundary), name(*found)));
-      boundary = found;
-    }
+    const std::optional<Boundary> boundary = coupled::boundary_of(file_, line);
     if (!boundary) return;
     const int first = point_of_[line.nodes[0]], second = point_of_[line.nodes[1]];
     const auto found = first < 0 || second < 0 ? sides_.end() : sides_.find(side_key(first, second));

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "axisym/gmsh_cells.hpp"
-#include "axisym/gmsh_file.hpp"
 
 namespace tunica::axisym {
 

@@ -4,16 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <map>
-#include <optional>
 #include <unordered_map>
 #include <utility>
 
 #include "axisym/mesh_check.hpp"
+#include "core/coupled/gmsh_parts.hpp"
 #include "core/error.hpp"
-#include "core/scene/message.hpp"
 
 namespace tunica::axisym {
 
@@ -22,26 +20,6 @@ namespace {
 /// Of the mesh's size: what CAD kernels and 16 digits leave of a zero, and of a distance that is none.
 constexpr double on_axis = 1e-9;
 constexpr double coincident = 1e-8;
-constexpr int no_layers = -1;  // a wall that is not divided
-
-struct Membership {
-  Part part;
-  int layer;
-};
-
-/// What the name of a physical surface means.
-std::optional<Membership> meaning(std::string_view text) {
-  if (text == "blood") return Membership{Part::blood, 0};
-  if (text == "wall") return Membership{Part::wall, no_layers};
-  constexpr std::string_view prefix = "wall:";
-  if (!text.starts_with(prefix)) return {};
-  text.remove_prefix(prefix.size());
-  constexpr int most_layers = 100;
-  int layer = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), layer);
-  if (error != std::errc{} || end != text.data() + text.size() || layer < 1 || layer > most_layers) return {};
-  return Membership{Part::wall, layer - 1};
-}
 
 class CellBuilder {
  public:
@@ -51,7 +29,11 @@ class CellBuilder {
     choose_shape();
     for (const GmshFile::Element& element : file_.elements)
       if (element.dimension == 2) add_cell(element);
-    check_layers_named();
+    coupled::check_parts(file_, 2, members_);
+    for (std::size_t k = 0; k < cells().size(); ++k) {
+      cells()[k].part = members_[k].part;
+      cells()[k].layer = members_[k].layer;
+    }
     place_nodes();
     for (std::size_t k = 0; k < cells().size(); ++k) turn_counter_clockwise(static_cast<int>(k));
     give_roles();
@@ -111,54 +93,7 @@ class CellBuilder {
           "physical surface only",
           found->second, name,
           where({file_.nodes[element.nodes[0]].position[0], file_.nodes[element.nodes[0]].position[1]})));
-    const Membership membership = membership_of(element, name);
-    cells().back().part = membership.part;
-    cells().back().layer = membership.layer;
-  }
-
-  Membership membership_of(const GmshFile::Element& element, const std::string& name) const {
-    const std::vector<std::string>& group = file_.groups[element.group];
-    constexpr const char* remedy =
-        "put each surface into one physical surface \"blood\", \"wall\" or \"wall:1\", "
-        "\"wall:2\", ... from the lumen outwards";
-    if (group.empty()) refuse(fmt::format("{} is in no named part; {}", name, remedy));
-    if (group.size() > 1)
-      refuse(fmt::format("{} is in {} parts, {} and {}; {}", name, group.size(), scene::in_quotes(group[0]),
-                         scene::in_quotes(group[1]), remedy));
-    const auto found = meaning(group.front());
-    if (!found) {
-      const std::vector<std::string> known = {"blood", "wall", "wall:1", "wall:2"};
-      refuse(fmt::format("the physical surface {} is unknown; {}{}", scene::in_quotes(group.front()), remedy,
-                         scene::did_you_mean(scene::nearest(group.front(), known))));
-    }
-    return *found;
-  }
-
-  void check_layers_named() {
-    bool whole = false;
-    std::vector<bool> layers;
-    for (const Cell& cell : cells()) {
-      if (cell.part == Part::blood) continue;
-      whole = whole || cell.layer == no_layers;
-      if (cell.layer >= static_cast<int>(layers.size())) layers.resize(cell.layer + 1);
-      if (cell.layer >= 0) layers[cell.layer] = true;
-    }
-    if (whole && !layers.empty())
-      refuse("the wall is partly \"wall\" and partly \"wall:1\", ...; name all of its layers, or none");
-    const auto missing = std::find(layers.begin(), layers.end(), false);
-    if (missing != layers.end())
-      refuse(
-          fmt::format("the wall has {} layers but no cell in \"wall:{}\"; number the layers from 1, from the "
-                      "lumen outwards",
-                      layers.size(), missing - layers.begin() + 1));
-    for (Cell& cell : cells()) cell.layer = std::max(cell.layer, 0);
-    for (const std::string& name : file_.names(2)) {
-      const auto found = meaning(name);
-      if (found && std::none_of(cells().begin(), cells().end(),
-                                [&](const Cell& cell) { return cell.part == found->part; }))
-        refuse(fmt::format("the physical surface \"{}\" has no cells; mesh its surface, or remove the name",
-                           name));
-    }
+    members_.push_back(coupled::membership_of(file_, element, name));
   }
 
   void place_nodes() {
@@ -324,6 +259,7 @@ class CellBuilder {
 
   const GmshFile& file_;
   GmshCells result_;
+  std::vector<coupled::Membership> members_;        ///< by cell
   double size_ = 0;                                 ///< the largest coordinate
   std::map<std::array<int, 4>, long> corners_;      ///< of the cells, sorted, with their tags
   std::unordered_map<std::uint64_t, int> middles_;  ///< by side

@@ -5,10 +5,12 @@
 #include <cstdint>
 #include <vector>
 
-#include "axisym/gmsh_file.hpp"
 #include "axisym/mesh.hpp"
+#include "core/element/gmsh_file.hpp"
 
 namespace tunica::axisym {
+
+using element::GmshFile;
 
 /// The cells of a Gmsh file.
 struct GmshCells {

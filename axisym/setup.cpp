@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "axisym/setup.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
 #include "axisym/locate.hpp"
+#include "core/coupled/gmsh_parts.hpp"
 #include "core/coupled/wall_strain.hpp"
 #include "core/error.hpp"
-#include "core/radial/compressible_ring.hpp"
 #include "core/radial/from_scene.hpp"
 
 namespace tunica::axisym {
@@ -70,13 +68,8 @@ void require_balance(const std::vector<wall::Law<double>>& laws) {
 
 /// The ring of the wall that a section cuts.
 std::unique_ptr<const radial::RingModel> ring_at(const Scene& scene, const Section& section) {
-  auto model = radial::ring_model(scene, {});
-  if (scene.text("geometry.kind") != "mesh") return model;
-  radial::Ring<double> ring = model->ring();
-  ring.inner_radius = section.inner;
-  ring.thickness = section.outer - section.inner;
-  return std::make_unique<radial::CompressibleRing>(std::move(ring),
-                                                    std::vector<radial::RingModel::Seeded>{});
+  if (scene.text("geometry.kind") != "mesh") return radial::ring_model(scene, {});
+  return coupled::ring_of(scene, section.inner, section.outer - section.inner);
 }
 
 }  // namespace
@@ -94,11 +87,7 @@ std::unique_ptr<Setup> setup_of(const Scene& scene, const Resolution& resolution
   Problem& problem = setup->problem;
   problem.mesh = mesh_of(scene, setup->resolution, with_blood);
   coupled::set_conditions(scene, *setup, problem);
-  if (problem.mesh.has(Part::wall) && problem.mesh.layers() != static_cast<int>(problem.laws.size()))
-    throw InvalidInput(fmt::format(
-        "geometry.file has {} layer{} of the wall, the scene describes {}; give each layer of the mesh its "
-        "[[wall.layers]], and no more",
-        problem.mesh.layers(), problem.mesh.layers() == 1 ? "" : "s", problem.laws.size()));
+  if (problem.mesh.has(Part::wall)) coupled::check_layers(problem.mesh.layers(), problem.laws.size());
   require_balance(problem.laws);
   setup->wall_density = problem.wall_density;
   set_ends(scene, problem);
@@ -116,11 +105,7 @@ std::unique_ptr<Setup> setup_of(const Scene& scene, const Resolution& resolution
   if (problem.mesh.has(Part::blood)) {
     set_inlet(scene, *setup);
   } else {
-    if (!setup->inlet.is_pressure)
-      throw InvalidInput(
-          "geometry.file has a wall without blood, which takes a pressure and no flow; write inlet.waveform "
-          "= "
-          "\"pressure\", \"pulse\" or a .csv file with a pressure");
+    coupled::require_pressure(setup->inlet.is_pressure);
     const Setup* const here = setup.get();
     problem.lumen_pressure = [here](double time) { return here->inlet_value(time); };
   }

@@ -53,10 +53,10 @@ class OwnMesh final : public coupled::StaticMesh {
 }  // namespace
 
 CoarserMeshes::CoarserMeshes(const Scene& scene, const Setup& finest, Team& team)
-    : scene_(scene),
-      shape_(finest.shape),
-      team_(team),
-      resolutions_(coarser_resolutions(finest.resolution, finest.problem.mesh.layers())) {
+    : scene_(scene), shape_(finest.shape), team_(team) {
+  // A mesh from a file has none.
+  if (finest.axes) return;
+  resolutions_ = coarser_resolutions(finest.resolution, finest.problem.mesh.layers());
   // A bend may ask for more cells along it than the coarsest meshes have.
   std::erase_if(resolutions_, [&](const Resolution& resolution) {
     try {

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/observables/table.hpp"
+#include "full3d/wall_axes.hpp"
 
 namespace tunica::full3d {
 
@@ -112,6 +113,13 @@ Fields::Fields(const Setup& setup, const Assembler& assembler, int threads) : se
   }
   blood_points_ = points_of(Part::blood, blood_);
   wall_points_ = points_of(Part::wall, wall_);
+  std::vector<std::vector<Place>> meeting(wall_points_.layers.size());
+  for (std::size_t k = 0; k < wall_points_.places.size(); ++k)
+    meeting[wall_points_.point_of_place[k]].push_back(wall_points_.places[k]);
+  for (std::size_t i = 0; i < meeting.size(); ++i) {
+    const Directions directions = mean_directions(problem, meeting[i], wall_.mesh.points[i]);
+    axes_.push_back({directions.circumferential, directions.axial});
+  }
   blood_probe_ = blood_probe(problem, assembler.layout(), blood_points_.places);
   wall_probe_ = wall_probe(problem, assembler.layout(), wall_points_.places, false, threads);
 }
@@ -182,7 +190,7 @@ std::vector<std::vector<float>> Fields::wall_values(std::span<const double> y) c
   std::vector<std::vector<float>> values(wall_.point_fields.size());
   for (std::size_t i = 0; i < strains.size(); ++i) {
     const auto& law = problem.laws[wall_points_.layers[i]];
-    const auto axes = problem.directions(wall_.mesh.points[i]);
+    const auto& axes = axes_[i];
     const Vector<double> radial = cross(axes.circumferential, axes.axial);
     const Tensor<double> cauchy = coupled::cauchy(law, strains[i], axes);
     const auto normal = [&](const Vector<double>& n) { return dot(n, cauchy * n); };

@@ -45,7 +45,8 @@ class Fields final : public coupled::Picturing {
   Points blood_points_, wall_points_;
   std::unique_ptr<BloodProbe> blood_probe_;
   std::unique_ptr<WallProbe> wall_probe_;
-  std::vector<int> families_;  ///< that are shown, of any layer
+  std::vector<wall::MaterialAxes> axes_;  ///< by point of the wall
+  std::vector<int> families_;             ///< that are shown, of any layer
   observables::FieldSeries blood_, wall_;
 };
 

@@ -67,13 +67,14 @@ class Full3dVessel final : public coupled::Vessel {
     record.resolution = {{"element", scene_.text("mesh.element")},
                          {"cells", mesh.cells.size()},
                          {"nodes", mesh.points.size()},
-                         {"wall_cells", r.wall_cells},
-                         {"blood_cells", r.blood_cells},
-                         {"axial_cells", r.axial_cells},
-                         {"around_cells", r.around_cells},
-                         {"symmetry", name_of(setup_->sector)},
                          {"solver", assembler_.share().method()},
                          {"ranks", ranks_.size()}};
+    if (setup_->axes) return;
+    record.resolution["wall_cells"] = r.wall_cells;
+    record.resolution["blood_cells"] = r.blood_cells;
+    record.resolution["axial_cells"] = r.axial_cells;
+    record.resolution["around_cells"] = r.around_cells;
+    record.resolution["symmetry"] = name_of(setup_->sector);
   }
 
   void conclude(RunRecord& record) const override {
@@ -98,11 +99,14 @@ class Full3dVessel final : public coupled::Vessel {
       unused.push_back({{"blood.", "inlet.profile", "outlet.", "mesh.blood_cells", "mesh.motion"},
                         "a wall under a given pressure is computed without its blood"});
     if (setup_->inlet.is_pressure) unused.push_back({{"inlet.profile"}, "a pressure drives the flow"});
+    if (setup_->axes)
+      unused.push_back({{"geometry.thickness", "geometry.length"}, "geometry.kind is \"mesh\""});
     if (scene_.text("mesh.element") == "bubble")
       unused.push_back({{"mesh.mixed_wall"}, "mesh.element is \"bubble\""});
     auto warnings = scene::remarks_on(scene_, unused);
     const physics::Tether& tether = setup_->problem.tether;
-    if (tether.traction != radial::TetherTraction::normal || tether.stiffness == 0)
+    const bool may_ripple = tether.traction != radial::TetherTraction::normal || tether.stiffness == 0;
+    if (may_ripple && !setup_->axes)
       if (const auto warning = stability::warning(scene_, setup_->expected_pressure))
         warnings.push_back(*warning);
     return warnings;

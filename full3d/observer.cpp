@@ -14,37 +14,6 @@ namespace {
 constexpr double degrees = 180 / std::numbers::pi;
 /// Points of a profile through the wall, both surfaces included.
 constexpr int profile_points = 61;
-constexpr int further_angles[] = {90, 180, 270};
-
-std::vector<double> divided(double thickness, int points) {
-  std::vector<double> depths;
-  for (int k = 0; k < points; ++k) depths.push_back(thickness * k / (points - 1.0));
-  return depths;
-}
-
-/// Faces of the blood's cells in the section at mid-length, seen from upstream.
-std::vector<Face> section_faces(const Setup& setup) {
-  const Mesh& mesh = setup.problem.mesh;
-  const double middle = 0.5 * setup.shape.length, same = 1e-9 * setup.shape.length;
-  const auto s_of = [&](int cell, int k) {
-    return setup.shape.local(mesh.points[mesh.node(cell, Basis::linear, k)]).s;
-  };
-  std::vector<Face> faces;
-  for (int cell = 0; cell < static_cast<int>(mesh.cells.size()); ++cell) {
-    if (mesh.cells[cell].part != Part::blood) continue;
-    double least = middle;
-    for (int k = 0; k < element::solid::shape_count(mesh.shape, Basis::linear); ++k)
-      least = std::min(least, s_of(cell, k));
-    if (least > middle - same) continue;
-    for (int face = 0; face < element::solid::faces(mesh.shape); ++face) {
-      const auto corners = element::solid::face_nodes(mesh.shape, Basis::linear, face);
-      if (std::all_of(corners.begin(), corners.end(),
-                      [&](int k) { return std::abs(s_of(cell, k) - middle) < same; }))
-        faces.push_back({cell, face, Boundary::outlet});
-    }
-  }
-  return faces;
-}
 
 struct Column {
   const char* name;
@@ -63,15 +32,15 @@ constexpr Column wall_columns[] = {
 Observer::Observer(const Setup& setup, const Assembler& assembler) : setup_(setup), assembler_(assembler) {
   const Problem& problem = setup.problem;
   const Locator locator(problem.mesh);
-  if (problem.mesh.has(Part::blood)) section_ = section_faces(setup);
+  const auto course = course_of(setup, locator);
+  section_pressure_ = course->section_pressure(assembler.layout());
   const auto line_at = [&](double angle, int points) {
-    return std::make_unique<const WallLine>(setup, assembler.layout(), locator, angle,
-                                            divided(setup.shape.thickness, points));
+    return std::make_unique<const WallLine>(setup, assembler.layout(), *course, locator, angle, points);
   };
+  further_angles_ = course->further_angles();
   points_.push_back(line_at(0, observables::wall_points));
-  if (setup.shape.bend_angle != 0)
-    for (const int angle : further_angles)
-      points_.push_back(line_at(angle / degrees, observables::wall_points));
+  for (const int angle : further_angles_)
+    points_.push_back(line_at(angle / degrees, observables::wall_points));
   profile_ = line_at(0, profile_points);
   for (int p = 0; p < observables::wall_points; ++p) {
     const auto& tissue = law(points_[0]->layer(p));
@@ -82,34 +51,29 @@ Observer::Observer(const Setup& setup, const Assembler& assembler) : setup_(setu
     }
     for (const int family : families) events_.push_back({p + 1, family + 1});
   }
-  find_line(locator);
+  find_line(*course, locator);
 }
 
-void Observer::find_line(const Locator& locator) {
+void Observer::find_line(const Course& course, const Locator& locator) {
   const Problem& problem = setup_.problem;
   const Mesh& mesh = problem.mesh;
-  const VesselShape& shape = setup_.shape;
-  const double same = 1e-9 * shape.radius;
   std::vector<Place> blood, wall;
-  for (int node = 0; node < static_cast<int>(mesh.points.size()); ++node) {
-    const auto at = shape.local(mesh.points[node]);
-    if (std::abs(at.y) > same || std::abs(at.x - shape.radius) > same) continue;
-    if (!assembler_.layout().has_displacement(node)) continue;
-    LineNode entry{node, at.s, blood.size(), 0, wall.size(), 0, 0};
-    if (const auto place = locator.find(mesh.points[node], Part::blood))
+  for (const AlongPoint& at : course.along()) {
+    const auto in_wall = locator.find(at.point, Part::wall);
+    if (!in_wall) continue;
+    LineNode entry{at.s, at.radius, blood.size(), 0, wall.size(), 0, 0, {}};
+    if (const auto place = locator.find(at.point, Part::blood))
       for (const Place& each : locator.meeting(*place)) blood.push_back(each);
-    if (const auto place = locator.find(mesh.points[node], Part::wall)) {
-      auto meeting = locator.meeting(*place);
-      entry.layer = mesh.cells[meeting.front().cell].layer;
-      for (const Place& each : meeting) entry.layer = std::min(entry.layer, mesh.cells[each.cell].layer);
-      for (const Place& each : meeting)
-        if (mesh.cells[each.cell].layer == entry.layer) wall.push_back(each);
-    }
+    auto meeting = locator.meeting(*in_wall);
+    entry.layer = mesh.cells[meeting.front().cell].layer;
+    for (const Place& each : meeting) entry.layer = std::min(entry.layer, mesh.cells[each.cell].layer);
+    std::erase_if(meeting, [&](const Place& each) { return mesh.cells[each.cell].layer != entry.layer; });
+    wall.insert(wall.end(), meeting.begin(), meeting.end());
+    entry.directions = mean_directions(problem, meeting, at.point);
     entry.blood_count = blood.size() - entry.blood;
     entry.wall_count = wall.size() - entry.wall;
     line_.push_back(entry);
   }
-  std::sort(line_.begin(), line_.end(), [](const LineNode& a, const LineNode& b) { return a.s < b.s; });
   line_blood_ = blood_probe(problem, assembler_.layout(), std::move(blood));
   line_wall_ = wall_probe(problem, assembler_.layout(), std::move(wall), false);
 }
@@ -136,13 +100,13 @@ observables::Sample Observer::sample(double time, std::span<const double> y) con
   const Problem& problem = setup_.problem;
   observables::Sample sample;
   sample.time = time;
-  if (section_.empty()) {
+  if (!section_pressure_) {
     sample.pressure = problem.lumen_pressure(time);
   } else {
     const coupled::Stage stage{time, 0, {}};
     sample.inflow = 0.0 - assembler_.flow(stage, y, Boundary::inlet);  // at rest 0, not -0
     sample.outflow = assembler_.flow(stage, y, Boundary::outlet);
-    sample.pressure = mean_pressure(problem, assembler_.layout(), section_, y);
+    sample.pressure = section_pressure_(y);
     if (const auto entry = assembler_.layout().outlet_pressure) sample.outlet_pressure = y[*entry];
   }
   std::vector<WallState> states;
@@ -159,7 +123,7 @@ observables::Table Observer::observables_table() const {
   for (std::size_t a = 1; a < points_.size(); ++a)
     for (const Column& column : wall_columns)
       for (int p = 1; p <= observables::wall_points; ++p)
-        table.add(fmt::format("{}.P{}.{}deg", column.name, p, further_angles[a - 1]), column.unit);
+        table.add(fmt::format("{}.P{}.{}deg", column.name, p, further_angles_[a - 1]), column.unit);
   return table;
 }
 
@@ -184,7 +148,7 @@ void Observer::append_profile(double time, std::span<const double> y, observable
     };
     observables::ProfilePoint point;
     point.time = time;
-    point.reference_radius = setup_.shape.radius + state.depth;
+    point.reference_radius = profile_->radius() + state.depth;
     point.radial_displacement = dot(state.strain.displacement, radial);
     point.radial_stretch = stretch(radial);
     point.circumferential_stretch = stretch(circumferential);
@@ -206,7 +170,7 @@ void Observer::append_profile(double time, std::span<const double> y, observable
   }
 }
 
-double Observer::shear_stress(const VesselShape::Directions& directions, const BloodSample& blood) const {
+double Observer::shear_stress(const Directions& directions, const BloodSample& blood) const {
   const auto f = Tensor<double>::identity() + blood.displacement_gradient;
   const auto minors = cofactor(f);
   const auto unit = [](Vector<double> v) {
@@ -222,13 +186,10 @@ double Observer::shear_stress(const VesselShape::Directions& directions, const B
 
 void Observer::append_along(double time, std::span<const double> y, observables::Table& along) const {
   const Problem& problem = setup_.problem;
-  const Layout& layout = assembler_.layout();
   const auto blood = line_blood_->samples(y);
   const auto strains = line_wall_->strains(y);
   for (const LineNode& node : line_) {
-    const auto directions = setup_.shape.directions(0, node.s);
-    Vector<double> displacement;
-    for (int c = 0; c < 3; ++c) displacement[c] = y[layout.displacement(node.node, c)];
+    const Directions& directions = node.directions;
     double pressure = node.blood_count > 0 ? 0 : problem.lumen_pressure(time);
     double shear = node.blood_count > 0 ? 0 : observables::none;
     for (std::size_t k = node.blood; k < node.blood + node.blood_count; ++k) {
@@ -240,10 +201,10 @@ void Observer::append_along(double time, std::span<const double> y, observables:
       strain.add(1.0 / static_cast<double>(node.wall_count), strains[k]);
     const double von_mises = von_mises_stress(
         coupled::cauchy(law(node.layer), strain, {directions.circumferential, directions.axial}));
-    const double outward = dot(displacement, directions.radial);
+    const double outward = dot(strain.displacement, directions.radial);
     std::size_t column = 0;
-    for (const double value : {time, node.s + dot(displacement, directions.axial),
-                               setup_.shape.radius + outward, pressure, shear, outward, von_mises})
+    for (const double value : {time, node.s + dot(strain.displacement, directions.axial),
+                               node.radius + outward, pressure, shear, outward, von_mises})
       along[column++].values.push_back(value);
   }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -11,10 +12,10 @@
 
 namespace tunica::full3d {
 
-/// Turns states of the vessel into the tables of a result. Mid-length is half way along the centreline of the
-/// unloaded vessel; P1..P4 divide the wall there from the inner to the outer surface, at the section's x
-/// axis: in a torus the outside of the bend. There the table has further columns for the wall at 90, 180 (the
-/// inside of the bend) and 270 degrees: "radial_displacement.P1.90deg", and so on.
+/// Turns states of the vessel into the tables of a result. P1..P4 divide the wall at mid-length from the
+/// inner to the outer surface, at angle 0 of the vessel's Course: in a torus the outside of the bend. Where
+/// it has further angles (90, 180, which is the inside of the bend, and 270 degrees) the table has columns
+/// for them: "radial_displacement.P1.90deg", and so on.
 class Observer final : public coupled::Observing {
  public:
   Observer(const Setup& setup, const Assembler& assembler);
@@ -24,11 +25,11 @@ class Observer final : public coupled::Observing {
   observables::Table observables_table() const override;
   void append_observables(double time, std::span<const double> y, observables::Table& table) const override;
   void append_profile(double time, std::span<const double> y, observables::Table& profiles) const override;
-  /// along.csv, a row for each node of the interface on the line of P1.
+  /// along.csv, a row for each point of Course::along.
   observables::Table along_table() const override { return observables::along_table(); }
   void append_along(double time, std::span<const double> y, observables::Table& along) const override;
 
-  /// At the section's x axis; families act alike there when their |angle| and threshold are equal and the
+  /// At angle 0; families act alike there when their |angle| and threshold are equal and the
   /// wall is its own mirror image.
   int events() const override { return static_cast<int>(events_.size()); }
   void event_values(std::span<const double> y, double* values) const override;
@@ -38,22 +39,23 @@ class Observer final : public coupled::Observing {
 
  private:
   struct LineNode {
-    int node;
-    double s;                        ///< along the centreline
+    double s, radius;                ///< along the centreline, and from it
     std::size_t blood, blood_count;  ///< places of the probe
     std::size_t wall, wall_count;
     int layer;
+    Directions directions;
   };
-  void find_line(const Locator& locator);
+  void find_line(const Course& course, const Locator& locator);
   void fill(const WallLine& line, std::span<const double> y, std::span<observables::WallPoint> points,
             std::vector<WallState>* states = nullptr) const;
-  double shear_stress(const VesselShape::Directions& directions, const BloodSample& blood) const;
+  double shear_stress(const Directions& directions, const BloodSample& blood) const;
   const wall::Law<double>& law(int layer) const { return setup_.problem.laws[layer]; }
 
   const Setup& setup_;
   const Assembler& assembler_;
-  std::vector<Face> section_;                            ///< of the lumen at mid-length; empty without blood
-  std::vector<std::unique_ptr<const WallLine>> points_;  ///< by angle, 0 first
+  std::vector<int> further_angles_;
+  std::function<double(std::span<const double>)> section_pressure_;  ///< empty without blood
+  std::vector<std::unique_ptr<const WallLine>> points_;              ///< by angle, 0 first
   std::unique_ptr<const WallLine> profile_;
   std::vector<LineNode> line_;
   std::unique_ptr<BloodProbe> line_blood_;

@@ -14,8 +14,10 @@ using coupled::InletKind;
 using coupled::OutletKind;
 using Prescribed = coupled::Prescribed<3>;
 
-/// Circumference and axis of the vessel at a place of the unloaded wall, unit vectors.
-using WallDirections = std::function<wall::MaterialAxes(const Point&)>;
+/// Circumference and axis of the vessel at a point of the unloaded wall, unit vectors. The point is given
+/// both by its cell and local coordinates and by where it is.
+using WallDirections =
+    std::function<wall::MaterialAxes(int cell, const element::solid::Local& local, const Point& point)>;
 
 /// Everything that is computed with: a vessel in space, or its blood or its wall alone.
 struct Problem : coupled::Conditions<3> {

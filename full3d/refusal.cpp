@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "full3d/refusal.hpp"
 
+#include "core/element/gmsh_file.hpp"
+
 namespace tunica::full3d {
 
 std::string refusal(const Scene& scene) {
-  if (scene.text("geometry.kind") == "mesh")
-    return "geometry.kind = \"mesh\" is a half plane, for --tier axisym; write \"cylinder\" or \"torus\"";
+  if (scene.text("geometry.kind") == "mesh") {
+    const int dimensions = element::gmsh_dimensions(scene.folder() / scene.text("geometry.file"));
+    if (dimensions == 1 || dimensions == 2)
+      return "geometry.file names no physical volume, but a half plane, for --tier axisym; mesh volumes "
+             "\"blood\" "
+             "and \"wall\", or write geometry.kind = \"cylinder\" or \"torus\"";
+  }
   if (scene.flag("wall.incompressible"))
     return "wall.incompressible = true is for the 0D tier; write false and a large wall.bulk_modulus (9e6 "
            "dyn/cm2 changes the volume by 1 to 2 %)";

@@ -1,30 +1,63 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "full3d/setup.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <utility>
 
+#include "core/coupled/gmsh_parts.hpp"
 #include "core/error.hpp"
 #include "core/radial/from_scene.hpp"
+#include "full3d/gmsh.hpp"
+#include "full3d/inlet_profile.hpp"
+#include "full3d/measures.hpp"
 #include "full3d/tables.hpp"
 
 namespace tunica::full3d {
 
 namespace {
 
-void set_ends(const Scene& scene, const VesselShape& shape, Problem& problem) {
+/// Coordinates that are normal to the inlet and the outlet, -1 where none is.
+struct EndAxes {
+  int inlet = 2, outlet = 2;
+};
+
+EndAxes end_axes(const Setup& setup) {
+  if (!setup.axes) return {2, setup.shape.bend_angle == 0 ? 2 : -1};
+  const Mesh& mesh = setup.problem.mesh;
+  const bool blood = mesh.has(Part::blood);
+  return {normal_axis(mesh, blood ? Boundary::inlet : Boundary::wall_inlet),
+          normal_axis(mesh, blood ? Boundary::outlet : Boundary::wall_outlet)};
+}
+
+void set_ends(const Scene& scene, Setup& setup) {
+  Problem& problem = setup.problem;
   const bool clamped = scene.text("geometry.ends") == "clamped";
-  if (!clamped && shape.bend_angle != 0)
+  const EndAxes axes = end_axes(setup);
+  if (!clamped && (axes.inlet < 0 || axes.outlet < 0))
     throw InvalidInput(
-        "geometry.ends = \"sliding\" lets the ends slide in planes across the axes, which a torus has not; "
-        "write \"clamped\", or geometry.kind = \"cylinder\"");
-  for (const Boundary boundary :
-       {Boundary::inlet, Boundary::outlet, Boundary::wall_inlet, Boundary::wall_outlet})
-    problem.on(boundary).displacement = {clamped, clamped, true};
+        "geometry.ends = \"sliding\" lets the ends slide in planes across the coordinate axes, in which "
+        "those of "
+        "a torus are not, nor those of this mesh; write \"clamped\", or geometry.kind = \"cylinder\"");
+  const auto hold = [&](Boundary boundary, int axis) {
+    auto& held = problem.on(boundary).displacement;
+    held = {clamped, clamped, clamped};
+    if (axis >= 0) held[axis] = true;
+  };
+  for (const Boundary boundary : {Boundary::inlet, Boundary::wall_inlet}) hold(boundary, axes.inlet);
+  for (const Boundary boundary : {Boundary::outlet, Boundary::wall_outlet}) hold(boundary, axes.outlet);
   // Blood comes in along the axis (paper, 2.3). Where it may also come in from the side, its momentum makes
   // the pressure condition unstable. A section that is free to widen stands for one within a longer artery.
-  problem.on(Boundary::inlet).velocity = {true, true, false};
-  if (!clamped) problem.on(Boundary::outlet).velocity = {true, true, false};
+  const auto lead = [&](Boundary boundary, int axis) {
+    auto& led = problem.on(boundary).velocity;
+    led = {true, true, true};
+    led[axis] = false;
+  };
+  if (axes.inlet >= 0) lead(Boundary::inlet, axes.inlet);
+  if (!clamped) lead(Boundary::outlet, axes.outlet);
 }
 
 double parabola(const Point& place, double radius) {
@@ -64,14 +97,46 @@ void set_inlet(const Scene& scene, Setup& setup) {
   // without this profiles that vary around the section, which two dimensions know nothing of, grow without
   // bound.
   problem.inlet.backflow = 0.5;
-  if (!coupled::needs_profile(scene, setup, problem.inlet)) return;
+  if (!coupled::needs_profile(scene, setup, problem.inlet)) {
+    if (end_axes(setup).inlet < 0)
+      throw InvalidInput(
+          "geometry.file: the inlet's normal is along none of the coordinates, which blood that comes in by "
+          "itself "
+          "needs to be led along; turn the mesh, or prescribe a flow with inlet.profile = \"parabolic\"");
+    return;
+  }
   problem.on(Boundary::inlet).velocity = {true, true, true};
+  if (setup.axes) {
+    problem.velocity = [here, profile = InletProfile(problem.mesh)](const Point& place, double time) {
+      Vector<double> velocity = profile.at(place);
+      for (double& component : velocity) component *= here->inlet_value(time);
+      return velocity;
+    };
+    return;
+  }
   const double radius = setup.shape.radius, peak = 1 / parabola_flux(problem, radius);
   problem.velocity = [here, radius, peak](const Point& place, double time) -> Vector<double> {
     // The inlet lies in the plane z = 0, and nothing else of the lumen does.
     if (std::abs(place[2]) > 1e-9 * radius) return {};
     return {0, 0, here->inlet_value(time) * peak * parabola(place, radius)};
   };
+}
+
+/// The mesh of geometry.file, with blood if it is wanted and there.
+Mesh given_mesh(const Scene& scene, bool with_blood) {
+  const auto file = scene.folder() / scene.text("geometry.file");
+  const Mesh mesh = read_gmsh(file);
+  const Element element = coupled::element_of(scene);
+  if (element == Element::bubble && mesh.shape != Shape::tetrahedron)
+    throw InvalidInput(fmt::format(
+        "{}: mesh.element = \"bubble\" needs tetrahedra, and this mesh has hexahedra; mesh it with "
+        "tetrahedra, or write mesh.element = \"quadratic\"",
+        file.string()));
+  const double radius = mesh.has(Part::blood)
+                            ? std::sqrt(surface(mesh, Boundary::inlet).area / std::numbers::pi)
+                            : mean_tube(mesh).radius;
+  coupled::check_unit(radius, {scene.number("geometry.radius"), file.string()});
+  return adapted(mesh, element, with_blood);
 }
 
 }  // namespace
@@ -84,26 +149,43 @@ std::unique_ptr<Setup> setup_of(const Scene& scene, const Resolution& resolution
   auto setup = std::make_unique<Setup>();
   coupled::set_source(scene, *setup);
   setup->resolution = resolution;
-  const bool with_blood = coupled::needs_blood(scene, *setup);
-  const VesselSpec spec = vessel_spec(scene, resolution, with_blood);
-  setup->sector = spec.sector;
-  setup->shape = {spec.radius, scene.number("geometry.thickness"), spec.length, spec.bend_angle};
-
-  Problem& problem = setup->problem;
-  problem.mesh = o_grid_vessel(spec);
   const Setup* const here = setup.get();
-  problem.directions = [here](const Point& place) { return here->shape.axes(place); };
+  Problem& problem = setup->problem;
+  std::unique_ptr<const radial::RingModel> rings[2];  // of which one is for the curve
+  if (scene.text("geometry.kind") == "mesh") {
+    problem.mesh = given_mesh(scene, coupled::needs_blood(scene, *setup));
+    const MeanTube tube = mean_tube(problem.mesh);
+    setup->shape = {tube.radius, tube.thickness, tube.length, 0};
+    setup->axes = std::make_unique<const WallAxes>(problem.mesh);
+    problem.directions = [here](int cell, const element::solid::Local& local, const Point&) {
+      return here->axes->at(cell, local);
+    };
+    for (auto& ring : rings) ring = coupled::ring_of(scene, tube.radius, tube.thickness);
+  } else {
+    const VesselSpec spec = vessel_spec(scene, resolution, coupled::needs_blood(scene, *setup));
+    setup->sector = spec.sector;
+    setup->shape = {spec.radius, scene.number("geometry.thickness"), spec.length, spec.bend_angle};
+    problem.mesh = o_grid_vessel(spec);
+    problem.directions = [here](int, const element::solid::Local&, const Point& place) {
+      return here->shape.axes(place);
+    };
+    for (auto& ring : rings) ring = radial::ring_model(scene, {});
+  }
+  const bool with_blood = problem.mesh.has(Part::blood);
   coupled::set_conditions(scene, *setup, problem);
-  problem.copies = spec.sector == Sector::quarter ? 4 : spec.sector == Sector::half ? 2 : 1;
+  coupled::check_layers(problem.mesh.layers(), problem.laws.size());
+  problem.copies = setup->sector == Sector::quarter ? 4 : setup->sector == Sector::half ? 2 : 1;
   setup->wall_density = problem.wall_density;
-  set_ends(scene, setup->shape, problem);
-  setup->lumen_radius = spec.radius;
-  setup->ring = radial::ring_model(scene, {});
-  if (with_blood)
+  set_ends(scene, *setup);
+  setup->lumen_radius = setup->shape.radius;
+  setup->ring = std::move(rings[0]);
+  if (with_blood) {
     set_inlet(scene, *setup);
-  else
+  } else {
+    coupled::require_pressure(setup->inlet.is_pressure);
     problem.lumen_pressure = [here](double time) { return here->inlet_value(time); };
-  coupled::estimate_sizes(scene, radial::ring_model(scene, {}), *setup);
+  }
+  coupled::estimate_sizes(scene, std::move(rings[1]), *setup);
   coupled::set_steady_pressure(problem, with_blood, *setup);
   return setup;
 }

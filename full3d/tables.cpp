@@ -135,7 +135,7 @@ int Tables<Width, SideWidth>::wall_rule(int cell) const {
   const Mesh& mesh = problem_.mesh;
   if (mesh.shape == Shape::tetrahedron || !has_front(problem_.laws[mesh.cells[cell].layer])) return 0;
   const Image centre = image(mesh, cell, {0, 0, 0});
-  const auto axes = problem_.directions(centre.point);
+  const auto axes = problem_.directions(cell, {0, 0, 0}, centre.point);
   const Vector<double> across = cross(axes.circumferential, axes.axial);
   int best = 0;
   double greatest = -1;
@@ -213,7 +213,7 @@ void Tables<Width, SideWidth>::wall(int cell, std::vector<WallPoint>& points) co
     lift_shapes(r.displacement, at, point.displacement);
     point.pressure[0] = 1;
     for (int d = 0; d < 3; ++d) point.pressure[1 + d] = r.local[d];
-    point.axes = problem_.directions(at.place);
+    point.axes = problem_.directions(cell, r.local, at.place);
   }
 }
 

@@ -21,17 +21,16 @@ VesselShape::Local VesselShape::local(const Point& place) const {
   return {std::hypot(place[0] + bend, place[2]) - bend, place[1], bend * phi};
 }
 
-VesselShape::Directions VesselShape::directions(double angle, double s) const {
+wall::MaterialAxes VesselShape::axes(double angle, double s) const {
   const double c = std::cos(angle), d = std::sin(angle);
   const double phi = bend_angle == 0 ? 0 : s / bend_radius();
   const Vector<double> out{std::cos(phi), 0, std::sin(phi)}, along{-std::sin(phi), 0, std::cos(phi)};
-  return {{c * out[0], d, c * out[2]}, {-d * out[0], c, -d * out[2]}, along};
+  return {{-d * out[0], c, -d * out[2]}, along};
 }
 
 wall::MaterialAxes VesselShape::axes(const Point& place) const {
   const Local at = local(place);
-  const Directions directions = this->directions(std::atan2(at.y, at.x), at.s);
-  return {directions.circumferential, directions.axial};
+  return axes(std::atan2(at.y, at.x), at.s);
 }
 
 }  // namespace tunica::full3d

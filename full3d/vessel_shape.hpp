@@ -21,12 +21,8 @@ struct VesselShape {
   /// See o_grid_vessel.
   Point place(const Local& local) const;
   Local local(const Point& place) const;
-  /// Unit vectors: along the section's radius and circumference at an angle from its x axis, and along the
-  /// centreline.
-  struct Directions {
-    Vector<double> radial, circumferential, axial;
-  };
-  Directions directions(double angle, double s) const;
+  /// Unit vectors at an angle from the section's x axis: along its circumference and along the centreline.
+  wall::MaterialAxes axes(double angle, double s) const;
   /// Those of the wall at a place.
   wall::MaterialAxes axes(const Point& place) const;
 };

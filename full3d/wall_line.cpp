@@ -8,30 +8,8 @@
 
 namespace tunica::full3d {
 
-namespace {
-
-/// Depths of the lines between the wall's cells, ascending from 0.
-std::vector<double> wall_lines(const Setup& setup) {
-  const Mesh& mesh = setup.problem.mesh;
-  std::vector<double> depths;
-  for (int cell = 0; cell < static_cast<int>(mesh.cells.size()); ++cell) {
-    if (mesh.cells[cell].part != Part::wall) continue;
-    for (int k = 0; k < element::solid::shape_count(mesh.shape, Basis::linear); ++k) {
-      const auto at = setup.shape.local(mesh.points[mesh.node(cell, Basis::linear, k)]);
-      depths.push_back(std::hypot(at.x, at.y) - setup.shape.radius);
-    }
-  }
-  std::sort(depths.begin(), depths.end());
-  const double same = 1e-6 * setup.shape.thickness;
-  depths.erase(std::unique(depths.begin(), depths.end(), [&](double a, double b) { return b - a < same; }),
-               depths.end());
-  return depths;
-}
-
-}  // namespace
-
-WallLine::WallLine(const Setup& setup, const Layout& layout, const Locator& locator, double angle,
-                   const std::vector<double>& depths)
+WallLine::WallLine(const Setup& setup, const Layout& layout, const Course& course, const Locator& locator,
+                   double angle, int points)
     : setup_(setup), angle_(std::remainder(angle, 2 * std::numbers::pi)) {
   constexpr double quarter_turn = 0.5 * std::numbers::pi, rounding = 1e-9;
   const bool cut_y = setup.sector != Sector::full, cut_x = setup.sector == Sector::quarter;
@@ -42,19 +20,24 @@ WallLine::WallLine(const Setup& setup, const Layout& layout, const Locator& loca
   on_y_plane_ = cut_y && (std::abs(angle_) < rounding || std::abs(angle_ - 2 * quarter_turn) < rounding);
   on_x_plane_ = cut_x && std::abs(angle_ - quarter_turn) < rounding;
 
+  line_ = course.across(angle_);
+  const Across unfolded = turned_x_ || turned_y_ ? course.across(angle) : line_;
+
   std::vector<Place> places;
-  const auto lines = wall_lines(setup);
-  const bool quadratic = setup.problem.discretisation.element == Element::quadratic;
   // Along faces of tetrahedra, which cross the line at any place, no points are better than others.
-  if (setup.problem.mesh.shape == Shape::hexahedron)
-    for (std::size_t k = 0; k + 1 < lines.size(); ++k)
-      for (const double side : {-1, 1}) {
-        if (!quadratic && side < 0) continue;
-        const double share = quadratic ? 0.5 * (1 + side / std::numbers::sqrt3) : 0.5;
-        samples_.push_back(read(std::lerp(lines[k], lines[k + 1], share), locator, places));
-      }
-  for (const double depth : depths) {
-    Spot spot{read(depth, locator, places), 0, {}};
+  const auto lines =
+      setup.problem.mesh.shape == Shape::hexahedron ? course.cell_lines(line_) : std::vector<double>{};
+  const bool quadratic = setup.problem.discretisation.element == Element::quadratic;
+  for (std::size_t k = 0; k + 1 < lines.size(); ++k)
+    for (const double side : {-1, 1}) {
+      if (!quadratic && side < 0) continue;
+      const double share = quadratic ? 0.5 * (1 + side / std::numbers::sqrt3) : 0.5;
+      samples_.push_back(read(std::lerp(lines[k], lines[k + 1], share), locator, places));
+    }
+  for (int k = 0; k < points; ++k) {
+    const double depth = line_.thickness * k / (points - 1.0);
+    Spot spot{read(depth, locator, places), 0, {}, {}};
+    spot.directions = mean_directions(setup.problem, std::span(places).last(spot.count), unfolded.at(depth));
     choose_samples(spot);
     spots_.push_back(std::move(spot));
   }
@@ -62,14 +45,10 @@ WallLine::WallLine(const Setup& setup, const Layout& layout, const Locator& loca
 }
 
 WallLine::Reading WallLine::read(double depth, const Locator& locator, std::vector<Place>& places) const {
-  const VesselShape& shape = setup_.shape;
-  const double c = std::cos(angle_), s = std::sin(angle_);
   // Cells of an eighth of the circle leave out 0.2 % of the radius between their nodes, flat ones 8 %: lines
   // that pass there begin and end a little within the wall.
   for (const double inwards : {0.0, 1e-6, 1e-4, 1e-3, 1e-2, 0.1}) {
-    const double middle = 0.5 * shape.thickness;
-    const double r = shape.radius + depth + inwards * (middle - depth);
-    const auto place = locator.find(shape.place({r * c, r * s, 0.5 * shape.length}), Part::wall);
+    const auto place = locator.find(line_.at(std::lerp(depth, 0.5 * line_.thickness, inwards)), Part::wall);
     if (!place) continue;
     auto meeting = locator.meeting(*place);
     const Mesh& mesh = setup_.problem.mesh;
@@ -132,8 +111,6 @@ std::vector<WallState> WallLine::states(std::span<const double> y) const {
   std::vector<WallStrain> sampled;
   sampled.reserve(samples_.size());
   for (const Reading& sample : samples_) sampled.push_back(mean(sample, strains));
-  const double angle = (turned_y_ ? -1 : 1) * (turned_x_ ? std::numbers::pi - angle_ : angle_);
-  const auto directions = setup_.shape.directions(angle, 0.5 * setup_.shape.length);
   std::vector<WallState> states;
   states.reserve(spots_.size());
   for (const Spot& spot : spots_) {
@@ -147,7 +124,7 @@ std::vector<WallState> WallLine::states(std::span<const double> y) const {
     }
     if (turned_x_) strain = mirrored(strain, 0);
     if (turned_y_) strain = mirrored(strain, 1);
-    states.push_back({spot.depth, spot.layer, strain, directions});
+    states.push_back({spot.depth, spot.layer, strain, spot.directions});
   }
   return states;
 }

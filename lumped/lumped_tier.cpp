@@ -278,7 +278,8 @@ class LumpedRun final : public TierRun {
 
 std::string LumpedTier::refusal(const Scene& scene) const {
   if (scene.text("geometry.kind") == "mesh")
-    return "geometry.kind = \"mesh\" has no single cross-section; use --tier axisym, or give a cylinder";
+    return "geometry.kind = \"mesh\" has no single cross-section; use --tier axisym (half planes) or full3d "
+           "(volumes), or give a cylinder";
   if (scene.text("time.mode") == "static")
     return "time.mode = \"static\" is for the tiers with a mesh; use --tier axisym";
   return {};

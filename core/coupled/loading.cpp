@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/radial/compressible_ring.hpp"
 #include "core/radial/from_scene.hpp"
 #include "core/radial/wall_curve.hpp"
 #include "core/wall/from_scene.hpp"
@@ -59,6 +60,14 @@ OutletCondition outlet_of(const Scene& scene, const Loading& loading) {
   outlet.proximal_resistance = scene.number("outlet.proximal_resistance");
   outlet.compliance = scene.number("outlet.compliance");
   return outlet;
+}
+
+std::unique_ptr<const radial::RingModel> ring_of(const Scene& scene, double inner_radius, double thickness) {
+  radial::Ring<double> ring = radial::ring_model(scene, {})->ring();
+  ring.inner_radius = inner_radius;
+  ring.thickness = thickness;
+  return std::make_unique<radial::CompressibleRing>(std::move(ring),
+                                                    std::vector<radial::RingModel::Seeded>{});
 }
 
 void estimate_sizes(const Scene& scene, std::unique_ptr<const radial::RingModel> ring, Loading& loading) {

@@ -50,6 +50,9 @@ bool needs_profile(const Scene& scene, const Loading& loading, InletCondition& i
 /// The outlet of a scene. Throws InvalidInput for an RCR model without distal resistance.
 OutletCondition outlet_of(const Scene& scene, const Loading& loading);
 
+/// The ring of a scene's wall with another radius and thickness, of a mesh from a file.
+std::unique_ptr<const radial::RingModel> ring_of(const Scene& scene, double inner_radius, double thickness);
+
 /// Sets pressures, velocities and displacements to be expected, once the lumen's radius is known. `ring` of
 /// the wall at mid-length is made anew for the curve; none without a wall.
 void estimate_sizes(const Scene& scene, std::unique_ptr<const radial::RingModel> ring, Loading& loading);

@@ -124,16 +124,16 @@ std::vector<Parameter> declare() {
   std::vector<Parameter> all;
   all.push_back(choice("geometry.kind", "cylinder", {"cylinder", "torus", "mesh"},
                        "Shape of the artery; mesh is one of any shape, from geometry.file."));
-  all.push_back(
-      {"geometry.file",
-       Kind::text,
-       "",
-       {},
-       "must be given with kind = \"mesh\"",
-       {},
-       {},
-       "Gmsh file of the artery's half plane (x = r, y = z, in cm) with the named parts blood, wall, inlet, "
-       "outlet, outer, wall_inlet and wall_outlet."});
+  all.push_back({"geometry.file",
+                 Kind::text,
+                 "",
+                 {},
+                 "must be given with kind = \"mesh\"",
+                 {},
+                 {},
+                 "Gmsh file of the artery, in space or its half plane (x = r, y = z), in cm, with the named "
+                 "parts blood, wall, "
+                 "inlet, outlet, outer, wall_inlet and wall_outlet."});
   all.push_back(
       number("geometry.radius", "cm", 0.033, positive(10), "Inner radius R0 of the unloaded artery."));
   all.push_back(number("geometry.thickness", "cm", 0.01, positive(10), "Thickness h of the unloaded wall."));
@@ -202,10 +202,10 @@ std::vector<Parameter> declare() {
   all.push_back(number("inlet.duration", "s", 3e-3, positive(100), "Length of the \"pulse\" waveform."));
   all.push_back(number("inlet.period", "s", 0.8, {1e-3, 100, false, false},
                        "Length of a heart beat. A CSV waveform brings its own period."));
-  all.push_back(choice(
-      "inlet.profile", "parabolic", {"parabolic", "natural"},
-      "How a flow is imposed: parabolic prescribes the velocity, natural an unknown uniform pressure that "
-      "drives the flow. The 0D tier knows no profile."));
+  all.push_back(choice("inlet.profile", "parabolic", {"parabolic", "natural"},
+                       "How a flow is imposed: parabolic prescribes the velocity (of developed flow where "
+                       "the inlet is no circle), natural an unknown uniform pressure that "
+                       "drives the flow. The 0D tier knows no profile."));
 
   all.push_back(
       choice("outlet.kind", "resistance", {"resistance", "rcr"},

@@ -76,7 +76,7 @@ std::string SceneReader::reason_unused(std::string_view key) const {
   }
   if (key == "inlet.duration" && scene_.text("inlet.waveform") != "pulse") return because("inlet.waveform");
   if (key == "geometry.file" && scene_.text("geometry.kind") != "mesh") return because("geometry.kind");
-  const bool shapes_cylinder = key == "mesh.cell" || key.ends_with("_cells");
+  const bool shapes_cylinder = key == "mesh.cell" || key == "mesh.symmetry" || key.ends_with("_cells");
   if (shapes_cylinder && scene_.text("geometry.kind") == "mesh") return because("geometry.kind");
   if (key == "mesh.cell" && scene_.text("mesh.element") == "bubble") return because("mesh.element");
   if ((key == "time.scheme" || key == "time.step") && scene_.text("time.mode") == "static")

@@ -136,6 +136,33 @@ TEST(Record, HoldsTheMedianTimeOfAStepOfTiersWithMeshes) {
   }
 }
 
+TEST(Ranks, MeshFromAFileIsTheSameOnAny) {
+  const auto arguments = [](const char* out) {
+    Arguments all{"run", scenes / "tapering_bend.toml", "--out", out, "--quiet", "--no-report"};
+    for (const char* setting : {"inlet.waveform=constant", "inlet.flow=0.02", "inlet.period=0.05",
+                                "time.step=0.02", "output.interval=0.02", "output.field_interval=0"})
+      all.insert(all.end(), {"--set", setting});
+    return all;
+  };
+  const TemporaryFolder folder;
+  const Ended one = test_support::tunica(arguments("one"), folder.path());
+  ASSERT_EQ(one.code, 0) << one.errors;
+  const Ended two = run(on_ranks(2, arguments("two")), folder.path());
+  ASSERT_EQ(two.code, 0) << two.errors;
+  EXPECT_LT(difference(folder.path() / "one", folder.path() / "two"), 1e-8);
+}
+
+TEST(MeshInSpace, IsNotForTheTiersOfFewerDimensions) {
+  const TemporaryFolder folder;
+  for (const char* tier : {"lumped", "axisym"}) {
+    const Ended ended = test_support::tunica(
+        {"run", scenes / "tapering_bend.toml", "--tier", tier, "--out", "r", "--quiet"}, folder.path());
+    EXPECT_EQ(ended.code, 2) << ended.errors;
+    EXPECT_TRUE(is_one_line(ended.errors)) << ended.errors;
+    EXPECT_NE(ended.errors.find("full3d"), std::string::npos) << ended.errors;
+  }
+}
+
 /// Processes that one has started, by their rank in the world; 0 for ranks that are not there.
 pid_t process_of_rank(pid_t parent, int rank) {
   std::ifstream children("/proc/" + std::to_string(parent) + "/task/" + std::to_string(parent) + "/children");
@@ -209,6 +236,8 @@ TEST(KilledRun, OfOneProcessEndsAlikeToTheLastBit) {
     EXPECT_TRUE(read_text(whole.path() / "r" / file) == read_text(folder.path() / "r" / file)) << file;
 }
 
+const std::string bend = (scenes / "tapering_bend.msh").string();
+
 struct Bad {
   const char* name;
   Arguments settings, words;
@@ -245,6 +274,18 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"mesh_of_a_half_plane",
             {"geometry.kind=mesh", "geometry.file=" + (scenes / "stenosis.msh").string()},
             {"geometry.kind", "axisym", "torus"}},
+        Bad{"mesh_that_is_not_there",
+            {"geometry.kind=mesh", "geometry.file=none.msh"},
+            {"none.msh does not exist"}},
+        Bad{"mesh_in_another_unit",
+            {"geometry.kind=mesh", "geometry.file=" + bend, "geometry.radius=0.0033"},
+            {"radius at the inlet", "probably in millimetres"}},
+        Bad{"mesh_of_hexahedra_for_bubbles",
+            {"geometry.kind=mesh", "geometry.file=" + bend, "mesh.element=bubble"},
+            {"mesh.element", "needs tetrahedra", "\"quadratic\""}},
+        Bad{"mesh_without_the_layers",
+            {"geometry.kind=mesh", "geometry.file=" + bend, "wall.layers=[{fraction=0.5}, {fraction=0.5}]"},
+            {"geometry.file has 1 layer of the wall", "the scene describes 2", "[[wall.layers]]"}},
         Bad{"tight_bend",
             {"geometry.kind=torus", "geometry.bend_angle=350", "geometry.length=0.2"},
             {"geometry.bend_angle = 350 deg", "outer radius"}},

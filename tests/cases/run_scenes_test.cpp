@@ -39,24 +39,32 @@ std::vector<std::string> shipped() {
   return names;
 }
 
-bool is_bent(const std::string& name) {
+bool is_torus(const std::string& name) {
   return read_scene(scenes / (name + ".toml")).text("geometry.kind") == "torus";
+}
+/// Bent arteries: tori, and the mesh in space.
+bool is_bent(const std::string& name) {
+  return is_torus(name) || name == "tapering_bend";
 }
 
 class ShippedScene : public testing::TestWithParam<std::string> {
  protected:
   fs::path file() const { return scenes / (GetParam() + ".toml"); }
-  /// The program's arguments. Bent arteries take minutes: a beat of a third of the bend, in few cells, does.
+  /// The program's arguments. Bent arteries take minutes: a beat of a third of the bend, in few cells, does,
+  /// or one in linear elements.
   std::vector<std::string> arguments(const fs::path& out) const { return arguments(file(), out); }
   static std::vector<std::string> arguments(const fs::path& scene, const fs::path& out) {
-    std::vector<std::string> all{"run", scene, "--out", out, "--quiet"};
-    if (is_bent(GetParam()))
-      for (const char* setting :
-           {"geometry.bend_angle=60", "mesh.axial_cells=6", "mesh.wall_cells=1", "mesh.blood_cells=1",
-            "mesh.around_cells=8", "time.beats=1", "output.field_interval=0.4"}) {
-        all.emplace_back("--set");
-        all.emplace_back(setting);
-      }
+    std::vector<std::string> all{"run", scene, "--out", out, "--quiet"}, settings;
+    if (is_torus(GetParam()))
+      settings = {"geometry.bend_angle=60",   "mesh.axial_cells=6",  "mesh.wall_cells=1",
+                  "mesh.blood_cells=1",       "mesh.around_cells=8", "time.beats=1",
+                  "output.field_interval=0.4"};
+    else if (is_bent(GetParam()))
+      settings = {"mesh.element=linear", "time.step=0.02", "output.field_interval=0.4"};
+    for (const std::string& setting : settings) {
+      all.emplace_back("--set");
+      all.push_back(setting);
+    }
     return all;
   }
   TemporaryFolder folder_;

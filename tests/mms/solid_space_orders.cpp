@@ -57,7 +57,9 @@ class SolidSpaceOrders : public testing::TestWithParam<Case> {
   Errors solve(int cells) const {
     full3d::Problem problem;
     problem.mesh = mesh(cells);
-    problem.directions = [](const Point&) { return box::Shape::directions(); };
+    problem.directions = [](int, const element::solid::Local&, const Point&) {
+      return box::Shape::directions();
+    };
     problem.discretisation = {GetParam().kind.element, mixed_wall, false};
     set_instant(vessel, bulk_modulus, tether, GetParam().inlet, problem);
     const full3d::Ranks ranks;

@@ -19,7 +19,9 @@ class SolidTimeOrders : public testing::Test {
     problem.mesh = test_support::box_mesh({vessel.width, vessel.thickness, vessel.depth, vessel.length, 1, 1,
                                            1, 2, full3d::Shape::hexahedron, true},
                                           [](const full3d::Point& x) { return x; });
-    problem.directions = [](const full3d::Point&) { return box::Shape::directions(); };
+    problem.directions = [](int, const element::solid::Local&, const full3d::Point&) {
+      return box::Shape::directions();
+    };
     set_march(vessel, problem);
   }
 

@@ -18,7 +18,8 @@ namespace {
 int dimension_of(const GmshModel::Element& element) {
   if (element.type == 15) return 0;
   if (element.type == 1 || element.type == 8) return 1;
-  return element.type == 4 ? 3 : 2;
+  const int solid[] = {4, 5, 11, 12, 17};
+  return std::find(std::begin(solid), std::end(solid), element.type) != std::end(solid) ? 3 : 2;
 }
 
 using Group = std::pair<int, std::string>;  // dimension and name

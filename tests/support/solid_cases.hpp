@@ -51,7 +51,7 @@ inline double copies(full3d::Sector sector) {
 /// Circumference and axis of the wall of a vessel with one layer.
 inline full3d::WallDirections directions_of(const full3d::VesselSpec& spec) {
   const full3d::VesselShape shape{spec.radius, spec.layers[0], spec.length, spec.bend_angle};
-  return [shape](const full3d::Point& place) { return shape.axes(place); };
+  return [shape](int, const element::solid::Local&, const full3d::Point& place) { return shape.axes(place); };
 }
 
 }  // namespace tunica::test_support

@@ -74,7 +74,7 @@ class SolidTangent : public testing::TestWithParam<std::tuple<SolidCase, bool>> 
     for (std::size_t n = 0; n < problem.mesh.points.size(); ++n) {
       const int node = static_cast<int>(n);
       const Point& x = problem.mesh.points[n];
-      const auto axial = problem.directions(x).axial;
+      const auto axial = problem.directions(0, {}, x).axial;
       for (int i = 0; i < 3; ++i) {
         state.value[layout.displacement(node, i)] =
             x[i] * (stretch[i] + bend[i] * x[2]) + shear[i] * x[0] * x[1] + noise(0.004);

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <utility>
 
-namespace tunica::axisym {
+namespace tunica::element {
 
 /// Words and numbers of a Gmsh file, one after the other; every failure is an InvalidInput that names file
 /// and line.
@@ -46,4 +46,4 @@ class GmshText {
   long line_ = 1;
 };
 
-}  // namespace tunica::axisym
+}  // namespace tunica::element

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "axisym/gmsh_text.hpp"
+#include "core/element/gmsh_text.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include "core/error.hpp"
 #include "core/scene/message.hpp"
 
-namespace tunica::axisym {
+namespace tunica::element {
 
 namespace {
 
@@ -121,4 +121,4 @@ std::string GmshText::quoted(std::string_view what) {
   return text;
 }
 
-}  // namespace tunica::axisym
+}  // namespace tunica::element

@@ -1,22 +1,28 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "axisym/gmsh_file.hpp"
+#include "core/element/gmsh_file.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <fstream>
 #include <limits>
 #include <map>
 #include <set>
+#include <sstream>
 #include <unordered_map>
 #include <utility>
 
-#include "axisym/gmsh_text.hpp"
+#include "core/element/gmsh_text.hpp"
 #include "core/error.hpp"
 #include "core/scene/message.hpp"
+#include "core/scene/text.hpp"
 
-namespace tunica::axisym {
+namespace tunica::element {
 
 namespace {
+
+/// A million cells of a plane.
+constexpr std::size_t largest_mesh = 200'000'000;
 
 constexpr long most = std::numeric_limits<int>::max();
 constexpr long most_tag = std::numeric_limits<long>::max();
@@ -25,16 +31,22 @@ constexpr long most_tag = std::numeric_limits<long>::max();
 struct Type {
   int number, dimension, corners, nodes;
 };
-constexpr Type types[] = {{15, 0, 1, 1}, {1, 1, 2, 2}, {8, 1, 2, 3},  {2, 2, 3, 3},
-                          {9, 2, 3, 6},  {3, 2, 4, 4}, {16, 2, 4, 8}, {10, 2, 4, 9}};
-constexpr const char* types_remedy =
+constexpr Type types[] = {{15, 0, 1, 1}, {1, 1, 2, 2},   {8, 1, 2, 3},  {2, 2, 3, 3}, {9, 2, 3, 6},
+                          {3, 2, 4, 4},  {16, 2, 4, 8},  {10, 2, 4, 9}, {4, 3, 4, 4}, {11, 3, 4, 10},
+                          {5, 3, 8, 8},  {17, 3, 8, 20}, {12, 3, 8, 27}};
+constexpr const char* plane_types_remedy =
     "allowed are lines, triangles and quadrilaterals of order 1 or 2 (types 1, 8, 2, 9, 3, 16, 10) and "
-    "points: "
-    "mesh in two dimensions with Mesh.ElementOrder = 2 or 1";
+    "points: mesh in two dimensions with Mesh.ElementOrder = 2 or 1";
+constexpr const char* solid_types_remedy =
+    "allowed are tetrahedra and hexahedra of order 1 or 2 (types 4, 11, 5, 17, 12), the faces and lines that "
+    "bound them, and points: mesh in three dimensions with Mesh.ElementOrder = 2 or 1";
 
 class Parser {
  public:
-  Parser(std::string_view text, const std::string& label) : text_(text, label) { file_.label = label; }
+  Parser(std::string_view text, const std::string& label, int dimensions)
+      : text_(text, label), dimensions_(dimensions) {
+    file_.label = label;
+  }
 
   GmshFile parse() {
     if (text_.word() != "$MeshFormat")
@@ -130,7 +142,9 @@ class Parser {
   }
 
   std::array<double, 3> read_position() {
-    const double x = text_.real("x (the radius)"), y = text_.real("y (the height)"), z = text_.real("z");
+    const bool plane = dimensions_ == 2;
+    const double x = text_.real(plane ? "x (the radius)" : "x"),
+                 y = text_.real(plane ? "y (the height)" : "y"), z = text_.real("z");
     return {x, y, z};
   }
 
@@ -168,10 +182,12 @@ class Parser {
   }
 
   const Type& type(long tag, long number) {
-    const auto found =
-        std::find_if(std::begin(types), std::end(types), [=](const Type& t) { return t.number == number; });
+    const auto found = std::find_if(std::begin(types), std::end(types), [&](const Type& t) {
+      return t.number == number && t.dimension <= dimensions_;
+    });
     if (found == std::end(types))
-      text_.refuse(fmt::format("element {} has the type {}; {}", tag, number, types_remedy));
+      text_.refuse(fmt::format("element {} has the type {}; {}", tag, number,
+                               dimensions_ == 2 ? plane_types_remedy : solid_types_remedy));
     return *found;
   }
 
@@ -179,11 +195,13 @@ class Parser {
   void read_element(long tag, const Type& type, int group) {
     for (int i = 0; i < type.nodes; ++i) {
       const long node = text_.integer("a node of an element", 0, most_tag);
-      if (type.dimension > 0) node_tags_.push_back(node);
+      if (is_kept(type)) node_tags_.push_back(node);
     }
-    if (type.dimension > 0)
-      file_.elements.push_back({tag, type.dimension, type.corners, type.nodes, {}, group});
+    if (is_kept(type)) file_.elements.push_back({tag, type.dimension, type.corners, type.nodes, {}, group});
   }
+
+  /// Cells and what bounds them.
+  bool is_kept(const Type& type) const { return type.dimension >= dimensions_ - 1; }
 
   int group_of(int dimension, const PhysicalTags& tags) {
     const auto next = static_cast<int>(tags_of_group_.size());
@@ -261,6 +279,7 @@ class Parser {
   }
 
   GmshText text_;
+  int dimensions_;
   GmshFile file_;
   bool version_four_ = false;
   std::map<std::pair<int, long>, PhysicalTags> tags_of_entity_;  ///< by dimension and entity
@@ -279,8 +298,30 @@ std::vector<std::string> GmshFile::names(int dimension) const {
   return found;
 }
 
-GmshFile parse_gmsh_file(std::string_view text, const std::string& label) {
-  return Parser(text, label).parse();
+GmshFile parse_gmsh_file(std::string_view text, const std::string& label, int dimensions) {
+  if (text.find('\0') != std::string_view::npos)
+    throw InvalidInput(fmt::format("{}: the mesh is binary; save it as ASCII (Mesh.Binary = 0)", label));
+  return Parser(text, label, dimensions).parse();
 }
 
-}  // namespace tunica::axisym
+std::string load_gmsh(const std::filesystem::path& file) {
+  return scene::load_text(file, "mesh", ".msh", largest_mesh);
+}
+
+std::string gmsh_label(const std::filesystem::path& file) {
+  return fmt::format("mesh file {}", scene::one_line(file.string(), 400));
+}
+
+int gmsh_dimensions(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  std::string line;
+  while (std::getline(stream, line) && !line.starts_with("$PhysicalNames"))
+    if (line.starts_with("$Nodes") || line.starts_with("$Elements")) return 0;
+  int most = 0, dimension = 0;
+  while (std::getline(stream, line) && !line.starts_with('$'))
+    if (std::string name; std::istringstream(line) >> dimension >> name >> name)
+      most = std::max(most, dimension);
+  return most;
+}
+
+}  // namespace tunica::element

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "core/coupled/vessel.hpp"
+#include "core/element/gmsh_file.hpp"
+
+/// What the names of physical groups in a Gmsh file mean to all tiers that read one. The cells of a mesh are
+/// in groups of its dimension: "blood" and "wall", or "wall:1", "wall:2", ... for layers from the lumen
+/// outwards. What bounds them is in groups of one dimension less, named as the boundaries are.
+namespace tunica::coupled {
+
+struct Membership {
+  Part part;
+  int layer;  ///< from 0; of a wall that is not divided -1, until check_parts makes it 0
+};
+
+/// Part and layer of a cell that messages call `cell`. Throws InvalidInput for cells in no named group, in
+/// several, or in one of another name.
+Membership membership_of(const element::GmshFile& file, const element::GmshFile::Element& element,
+                         const std::string& cell);
+
+/// Throws InvalidInput for a wall of which some cells are in layers and others not, for a layer without
+/// cells, and for a part that the file names and has no cells of.
+void check_parts(const element::GmshFile& file, int dimension, std::span<Membership> cells);
+
+/// The boundary that an element between cells is named after, if any. Throws InvalidInput for two.
+std::optional<Boundary> boundary_of(const element::GmshFile& file, const element::GmshFile::Element& element);
+
+/// Throws InvalidInput when a boundary that the parts have to have is named nowhere.
+void check_boundaries_named(const element::GmshFile& file, int dimension, bool blood, bool wall);
+
+/// Throws InvalidInput for a mesh of another number of layers than the scene's.
+void check_layers(int of_mesh, std::size_t of_scene);
+/// Throws InvalidInput for a mesh of a wall alone under anything but a pressure.
+void require_pressure(bool is_pressure);
+
+/// What the scene says of a mesh that it names.
+struct Expected {
+  double radius;      ///< geometry.radius, cm
+  std::string label;  ///< names the mesh in messages
+};
+
+/// Refuses (InvalidInput) a mesh in another unit of length: its radius at the inlet is more than 50 times
+/// geometry.radius or less than a 50th of it, or within 2 % of 10 times it (mm for cm).
+void check_unit(double inlet_radius, const Expected& expected);
+
+}  // namespace tunica::coupled

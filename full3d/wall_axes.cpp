@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "full3d/wall_axes.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/error.hpp"
+#include "full3d/harmonic.hpp"
+#include "full3d/layout.hpp"
+
+namespace tunica::full3d {
+
+namespace {
+
+double length(const Vector<double>& v) {
+  return std::sqrt(dot(v, v));
+}
+
+/// The vector made one of length 1; none of length 0 stays.
+Vector<double> unit(Vector<double> v) {
+  const double size = length(v);
+  if (size > 0)
+    for (double& component : v) component /= size;
+  return v;
+}
+
+}  // namespace
+
+Directions directions_of(const wall::MaterialAxes& axes) {
+  return {cross(axes.circumferential, axes.axial), axes.circumferential, axes.axial};
+}
+
+Directions mean_directions(const Problem& problem, std::span<const Place> places, const Point& point) {
+  Vector<double> axial{}, circumferential{};
+  for (const Place& place : places) {
+    const auto own = problem.directions(place.cell, place.local, point);
+    for (int i = 0; i < 3; ++i) {
+      axial[i] += own.axial[i];
+      circumferential[i] += own.circumferential[i];
+    }
+  }
+  axial = unit(axial);
+  const double along = dot(circumferential, axial);
+  for (int i = 0; i < 3; ++i) circumferential[i] -= along * axial[i];
+  return directions_of({unit(circumferential), axial});
+}
+
+WallAxes::WallAxes(const Mesh& mesh) : mesh_(mesh) {
+  const Basis basis = mesh.quadratic ? Basis::quadratic : Basis::linear;
+  const auto wall = cells_of(mesh, Part::wall);
+  const HeldBoundary ends[] = {{Boundary::wall_inlet, 0}, {Boundary::wall_outlet, 1}};
+  along_ = harmonic(mesh, basis, wall, ends);
+  const auto rule = element::solid::cell_rule(mesh.shape, basis);
+  const HeldBoundary surfaces[] = {{Boundary::interface, 0}, {Boundary::outer, 1}};
+  through_ = harmonic(mesh, basis, wall, surfaces, [&](int cell, std::size_t q) {
+    return length(gradients(mesh, along_, along_, cell, rule.points[q])[0]);
+  });
+}
+
+wall::MaterialAxes WallAxes::at(int cell, const element::solid::Local& local) const {
+  const auto [along, through] = gradients(mesh_, along_, through_, cell, local);
+  const Vector<double> axial = unit(along), circumferential = unit(cross(axial, through));
+  if (length(circumferential) > 0) return {circumferential, axial};
+  const Point at = image(mesh_, cell, local).point;
+  throw InvalidInput(fmt::format(
+      "mesh: the wall cell at x = {:.6g}, y = {:.6g}, z = {:.6g} cm has no direction along the vessel or "
+      "across "
+      "its wall: all of its corners lie on one boundary, or on two that meet; make cells there smaller",
+      at[0], at[1], at[2]));
+}
+
+}  // namespace tunica::full3d
