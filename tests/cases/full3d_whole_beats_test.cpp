@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Whole beats in space with default settings: minutes.
+#include <fmt/format.h>
+
 #include "tests/support/cylinder_by_law.hpp"
 
 namespace tunica {
 namespace {
 
 using test_support::CylinderByLaw;
+using test_support::difference;
+using test_support::difference_of_mirror_images;
 using test_support::greatest;
 using test_support::run_full3d;
 using test_support::values;
@@ -27,6 +31,19 @@ TEST(TorusInSpace, IsComputedOverTwoBeatsWithFibresRecruitedAtFiniteStrain) {
   const std::size_t beat = (time.size() - 1) / 2;
   for (std::size_t k = beat / 4; k <= beat; ++k)
     EXPECT_NEAR(u[k], u[k + beat], 0.01 * greatest(u)) << "at t = " << time[k];
+}
+
+TEST(TorusInSpace, CasesAAndBAreMirrorImagesOverABeatOfTheWholeBend) {
+  const auto over_a_beat = [](const char* scene) {
+    return run_full3d(read_scene(fmt::format("{}/scenes/{}.toml", TUNICA_SOURCE_DIR, scene),
+                                 {"time.beats=1", "output.field_interval=0"}))
+        .observables;
+  };
+  const auto a = over_a_beat("torus_case_a"), b = over_a_beat("torus_case_b");
+  EXPECT_LT(difference_of_mirror_images(a, b), 1e-6);
+  const auto& left = values(a, "radial_displacement.P1.90deg");
+  EXPECT_GT(difference(left, values(a, "radial_displacement.P1.270deg")), 1e-6 * greatest(left))
+      << "the sides of the bend are told apart";
 }
 
 }  // namespace

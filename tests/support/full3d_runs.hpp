@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "full3d/full3d_tier.hpp"
@@ -51,6 +52,23 @@ inline double difference(const std::vector<double>& a, const std::vector<double>
   EXPECT_EQ(a.size(), b.size());
   double most = 0;
   for (std::size_t k = 0; k < std::min(a.size(), b.size()); ++k) most = std::max(most, std::abs(a[k] - b[k]));
+  return most;
+}
+
+/// Greatest difference between the observables of a torus and the mirror image of another's about the plane
+/// of its bend, relative to the greatest value of each.
+inline double difference_of_mirror_images(const observables::Table& table, const observables::Table& other) {
+  double most = 0;
+  for (int point = 1; point <= 4; ++point)
+    for (const auto& [here, there] :
+         {std::pair{"", ""}, {".90deg", ".270deg"}, {".180deg", ".180deg"}, {".270deg", ".90deg"}})
+      for (const std::string quantity :
+           {"radial_displacement", "fiber_stretch", "recruitment", "von_mises"}) {
+        const std::string at = quantity + ".P" + std::to_string(point);
+        const auto& values_here = values(table, at + here);
+        EXPECT_GT(greatest(values_here), 0) << at << here;
+        most = std::max(most, difference(values_here, values(other, at + there)) / greatest(values_here));
+      }
   return most;
 }
 
