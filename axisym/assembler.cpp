@@ -162,7 +162,8 @@ void Assembler::tangent(const Stage& stage, std::span<const double> y, SparseMat
       const int k = first + index;
       const BloodTable& table = tables_.blood[k];
       const auto nodes = blood_nodes(problem_, layout_, problem_.mesh.cells[table.cell], stage, y);
-      const auto parameters = blood_parameters(problem_, table, stage);
+      auto parameters = blood_parameters(problem_, table, stage);
+      parameters.mesh_is_given = !coupled::has_displacement(map_.blood()[k].numbers);
       BloodTangent& t = blood[index];
       t = {};
       for (const auto& at : table.points) kernel::add_blood_tangent(parameters, at, nodes, t);
@@ -210,6 +211,35 @@ void Assembler::tangent(const Stage& stage, std::span<const double> y, SparseMat
   }
   for (const auto& entry : coupled::scalar_tangent(problem_.outlet, layout_, c))
     matrix.coeffRef(entry.row, entry.column) += entry.value;
+}
+
+void Assembler::follow(double time, std::span<double> y) const {
+  if (!layout_.mesh_follows()) return;
+  const auto nodes = [&](int cell) {
+    return CellNodes(problem_.mesh, problem_.discretisation.element, problem_.mesh.cells[cell]);
+  };
+  if (!follower_) {
+    follower_ = std::make_unique<Follower>(layout_);
+    for (const BloodTable& table : tables_.blood)
+      follower_->extension.add(nodes(table.cell).displacement(),
+                               blood_parameters(problem_, table, {}).mesh_stiffness,
+                               std::span<const BloodPoint>(table.points));
+    follower_->extension.finish();
+    follower_->factors.compute(follower_->extension.among());
+  }
+  std::vector<double> loads(layout_.followers().size(), 0.0);
+  if (problem_.loads.mesh_force)
+    for (const BloodTable& table : tables_.blood)
+      for (const auto& at : table.points)
+        follower_->extension.add_load(nodes(table.cell).displacement(), at,
+                                      problem_.loads.mesh_force(at.place, time), loads);
+  follower_->extension.extend(
+      loads,
+      [&](std::span<double> b) {
+        Eigen::Map<Eigen::VectorXd> right(b.data(), static_cast<Eigen::Index>(b.size()));
+        right = follower_->factors.solve(right).eval();
+      },
+      y);
 }
 
 double Assembler::flow(const Stage& stage, std::span<const double> y, Boundary boundary) const {

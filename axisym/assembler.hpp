@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <Eigen/SparseCholesky>
+#include <memory>
 #include <span>
 
 #include "axisym/matrix_map.hpp"
 #include "core/coupled/equations.hpp"
+#include "core/coupled/mesh_extension.hpp"
 #include "core/threads.hpp"
 
 namespace tunica::axisym {
@@ -27,6 +30,7 @@ class Assembler final : public coupled::Equations {
 
   void complete(const Stage& stage, std::span<double> y) const override;
   bool residual(const Stage& stage, std::span<const double> y, std::span<double> residual) const override;
+  void follow(double time, std::span<double> y) const override;
   const LeastJacobian& least_jacobian() const override { return least_; }
   /// By KLU.
   std::unique_ptr<coupled::TangentSolver> tangent_solver() const override;
@@ -53,6 +57,12 @@ class Assembler final : public coupled::Equations {
   Layout layout_;
   Tables tables_;
   MatrixMap map_;
+  struct Follower {
+    explicit Follower(const Layout& layout) : extension(layout) {}
+    coupled::MeshExtension extension;
+    Eigen::SimplicialLDLT<SparseMatrix> factors;
+  };
+  mutable std::unique_ptr<Follower> follower_;  ///< made when the mesh first follows
   mutable LeastJacobian least_;
 };
 

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "axisym/axisym_tier.hpp"
 
-#include <fmt/format.h>
-
-#include <cmath>
-
 #include "axisym/coarser_meshes.hpp"
 #include "axisym/fields.hpp"
 #include "axisym/observer.hpp"
@@ -19,11 +15,19 @@ namespace tunica::axisym {
 
 namespace {
 
+std::unique_ptr<Setup> setup_for_steps(const Scene& scene) {
+  auto setup = setup_of(scene);
+  Problem& problem = setup->problem;
+  problem.discretisation.lagged_mesh =
+      coupled::lags_mesh(scene, problem.mesh.has(Part::blood), problem.mesh.has(Part::wall));
+  return setup;
+}
+
 class AxisymVessel final : public coupled::Vessel {
  public:
   explicit AxisymVessel(const Scene& scene)
       : scene_(scene),
-        setup_(setup_of(scene)),
+        setup_(setup_for_steps(scene)),
         assembler_(setup_->problem),
         coarser_(scene, *setup_),
         observer_(assembler_),
@@ -32,6 +36,9 @@ class AxisymVessel final : public coupled::Vessel {
   coupled::Loading& loading() override { return *setup_; }
   const coupled::Equations& equations() const override { return assembler_; }
   const coupled::CoarserMeshes& coarser() const override { return coarser_; }
+  std::unique_ptr<coupled::StaticMesh> steady_mesh() const override {
+    return assembler_.layout().mesh_follows() ? coarser_.make_finest() : nullptr;
+  }
   const coupled::Observing& observer() const override { return observer_; }
   const coupled::Picturing& fields() const override { return fields_; }
   double local_tolerance() const override { return setup_->resolution.local_tolerance; }
@@ -62,27 +69,12 @@ class AxisymVessel final : public coupled::Vessel {
 
   void judge_static(std::span<const double> state, RunRecord& record) const override {
     if (assembler_.has_blood()) return;
-    TangentStability found;
     try {
-      found = tangent_stability(assembler_, 0, state);
+      coupled::record_stability(tangent_stability(assembler_, 0, state), setup_->problem.tether.traction,
+                                record);
     } catch (const SolverFailure& failure) {
       record.findings.emplace_back(failure.what());
-      return;
     }
-    record.resolution["negative_pivots"] = found.negative;
-    record.resolution["least_eigenvalue"] = found.least_eigenvalue;
-    if (found.negative == 0) return;
-    const bool proven = setup_->problem.tether.traction != radial::TetherTraction::current;
-    record.findings.push_back(
-        fmt::format("the static state {} unstable: its stiffness on this mesh has {} negative direction{}, "
-                    "of which the fastest "
-                    "grows as exp(t/{:.2g} s){}; {}",
-                    proven ? "is" : "may be", found.negative, found.negative == 1 ? "" : "s",
-                    1 / std::sqrt(-found.least_eigenvalue),
-                    found.wave_length > 0 ? fmt::format(" as ripples of {:.3g} cm", found.wave_length) : "",
-                    setup_->problem.tether.traction == radial::TetherTraction::normal
-                        ? "a stiffer wall or tether would hold it"
-                        : "tether.traction = \"normal\" is stable for the paper's laws"));
   }
 
  private:

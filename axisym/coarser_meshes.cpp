@@ -51,13 +51,18 @@ class OwnMesh final : public coupled::StaticMesh {
 
 }  // namespace
 
-CoarserMeshes::CoarserMeshes(const Scene& scene, const Setup& finest) : scene_(scene) {
+CoarserMeshes::CoarserMeshes(const Scene& scene, const Setup& finest)
+    : scene_(scene), finest_(finest.resolution) {
   if (scene.text("geometry.kind") != "mesh")
     resolutions_ = coarser_resolutions(finest.resolution, finest.problem.mesh.layers());
 }
 
 std::unique_ptr<coupled::StaticMesh> CoarserMeshes::make(int index) const {
   return std::make_unique<OwnMesh>(scene_, resolutions_[index]);
+}
+
+std::unique_ptr<coupled::StaticMesh> CoarserMeshes::make_finest() const {
+  return std::make_unique<OwnMesh>(scene_, finest_);
 }
 
 std::vector<double> CoarserMeshes::prolong(const coupled::Equations& from, std::span<const double> y,

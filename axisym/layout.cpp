@@ -46,6 +46,7 @@ Layout layout_of(const Problem& problem) {
   const Mesh& mesh = problem.mesh;
   coupled::LayoutSpec spec;
   spec.components = 2;
+  spec.mesh_follows = problem.discretisation.lagged_mesh;
   mark_nodes(problem, spec);
   if (mesh.has(Part::blood)) coupled::add_openings(problem, spec);
   for (const Edge& edge : mesh.edges) {

@@ -7,14 +7,16 @@ namespace tunica::axisym {
 
 std::vector<std::string> remarks_on_unused_keys(const Scene& scene, const Setup& setup) {
   std::vector<scene::Unused> unused{
-      {{"lumped.", "mesh.around_cells", "mesh.symmetry", "solver."}, "the tier is axisym"}};
+      {{"lumped.", "mesh.around_cells", "mesh.symmetry", "solver.method", "solver.options"},
+       "the tier is axisym"}};
   if (scene.text("time.mode") == "static")
     unused.push_back({{"time.beats", "time.start", "time.ramp", "output.interval", "output.profile_times",
-                       "outlet.compliance"},
+                       "outlet.compliance", "solver.geometry"},
                       "time.mode is \"static\""});
   if (!setup.problem.mesh.has(Part::blood))
     unused.push_back({{"blood.", "inlet.profile", "outlet.", "mesh.blood_cells", "mesh.motion"},
                       "a wall under a given pressure is computed without its blood"});
+  if (!setup.problem.mesh.has(Part::wall)) unused.push_back({{"solver.geometry"}, "no wall moves"});
   if (setup.inlet.is_pressure) unused.push_back({{"inlet.profile"}, "a pressure drives the flow"});
   if (scene.text("geometry.kind") == "mesh")
     unused.push_back({{"geometry.thickness", "geometry.length"}, "geometry.kind is \"mesh\""});

@@ -27,6 +27,7 @@ std::vector<int> all_cells_of(const Mesh& mesh) {
 Assembler::Assembler(const Problem& problem, const Ranks& ranks, SolverChoice choice,
                      std::unique_ptr<Announcer> announcer)
     : problem_(problem),
+      ranks_(ranks),
       layout_(layout_of(problem)),
       share_(problem, layout_, ranks, std::move(choice)),
       announcer_(std::move(announcer)),
@@ -55,6 +56,12 @@ bool Assembler::residual(const Stage& stage, std::span<const double> y, std::spa
   return std::all_of(residual.begin(), residual.end(), [](double r) { return std::isfinite(r); });
 }
 
+void Assembler::follow(double time, std::span<double> y) const {
+  if (!layout_.mesh_follows()) return;
+  if (!follower_) follower_ = std::make_unique<MeshFollower>(layout_, *all_, share_.method() == "direct");
+  follower_->follow(time, y);
+}
+
 std::vector<double> Assembler::volume_shares() const {
   std::vector<double> shares(problem_.mesh.points.size(), 0.0);
   all_->add_volumes(has_wall() ? Part::wall : Part::blood, shares);
@@ -65,6 +72,13 @@ std::vector<double> Assembler::volume_shares() const {
 
 double Assembler::flow(const Stage& stage, std::span<const double> y, Boundary boundary) const {
   return problem_.copies * all_->flow(stage, y, boundary);
+}
+
+LeastMode Assembler::least_mode(double time, std::span<const double> y) const {
+  if (has_blood()) throw std::logic_error("least_mode: for a wall alone");
+  const LoadedStage at = loaded({time, 0, {}}, y);
+  if (announcer_) announcer_->least_mode(at, y);
+  return full3d::least_mode(share_, layout_, ranks_, at, y);
 }
 
 std::string Assembler::place_of_node(int node) const {

@@ -4,7 +4,9 @@
 #include <memory>
 
 #include "core/coupled/equations.hpp"
+#include "full3d/mesh_follower.hpp"
 #include "full3d/share.hpp"
+#include "full3d/tangent_stability.hpp"
 
 namespace tunica::full3d {
 
@@ -15,6 +17,7 @@ class Announcer {
   virtual void residual(const LoadedStage& stage, std::span<const double> y) = 0;
   virtual void factorise(const LoadedStage& stage, std::span<const double> y) = 0;
   virtual void solve() = 0;
+  virtual void least_mode(const LoadedStage& stage, std::span<const double> y) = 0;
 };
 
 /// The coupled equations of a problem, on the leader: it computes its own share and has the other ranks
@@ -30,6 +33,7 @@ class Assembler final : public coupled::Equations {
   void complete(const coupled::Stage& stage, std::span<double> y) const override;
   bool residual(const coupled::Stage& stage, std::span<const double> y,
                 std::span<double> residual) const override;
+  void follow(double time, std::span<double> y) const override;
   const LeastJacobian& least_jacobian() const override { return least_; }
   /// By KSP of PETSc. One at a time has factors.
   std::unique_ptr<coupled::TangentSolver> tangent_solver() const override;
@@ -39,6 +43,8 @@ class Assembler final : public coupled::Equations {
   std::string place_of_node(int node) const override;
   std::string compression(const LeastJacobian& least) const override;
 
+  /// Of a wall alone at a complete static state. Throws SolverFailure when a pivot vanishes.
+  LeastMode least_mode(double time, std::span<const double> y) const;
   /// Flow out through a boundary of the whole vessel's blood, cm3/s, at a complete state.
   double flow(const coupled::Stage& stage, std::span<const double> y, Boundary boundary) const;
   /// Iterations of Krylov methods so far.
@@ -51,10 +57,12 @@ class Assembler final : public coupled::Equations {
  private:
   friend class SharedTangent;
   const Problem& problem_;
+  const Ranks& ranks_;
   Layout layout_;
   mutable Share share_;
   std::unique_ptr<Announcer> announcer_;
   std::unique_ptr<CellWork> all_;
+  mutable std::unique_ptr<MeshFollower> follower_;  ///< made when the mesh first follows
   mutable LeastJacobian least_;
   mutable const void* owner_of_factors_ = nullptr;
 };

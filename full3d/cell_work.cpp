@@ -163,7 +163,9 @@ class Work final : public CellWork {
           static thread_local std::vector<typename Tables<Width, SideWidth>::BloodPoint> points;
           tables_.blood(cell.cell, points);
           const auto nodes = coupled::blood_nodes<Frame, Width>(layout_, cell.fields(), at.stage, y);
-          const auto parameters = blood_parameters(points, at.stage);
+          auto parameters = blood_parameters(points, at.stage);
+          parameters.mesh_is_given =
+              !coupled::has_displacement(coupled::blood_numbers<Frame, Width>(layout_, cell.fields()));
           for (const auto& point : points)
             kernel::add_blood_tangent(parameters, point, nodes, result.tangent);
           if (condenses)
@@ -252,6 +254,26 @@ class Work final : public CellWork {
       const SideNumbers n = numbers(side);
       for (const auto& at : points)
         apply(loads.traction(at.place, time, side.face.boundary), at.weight, at.shapes, n.momentum);
+    }
+  }
+
+  void add_mesh(coupled::MeshExtension& extension) const override {
+    std::vector<typename Tables<Width, SideWidth>::BloodPoint> points;
+    for (const Nodes& cell : blood_) {
+      tables_.blood(cell.cell, points);
+      extension.add(cell.fields().displacement, blood_parameters(points, {}).mesh_stiffness,
+                    std::span<const typename Tables<Width, SideWidth>::BloodPoint>(points));
+    }
+  }
+  void add_mesh_loads(double time, const coupled::MeshExtension& extension,
+                      std::span<double> loads) const override {
+    const auto& force = problem_.loads.mesh_force;
+    if (!force) return;
+    std::vector<typename Tables<Width, SideWidth>::BloodPoint> points;
+    for (const Nodes& cell : blood_) {
+      tables_.blood(cell.cell, points);
+      for (const auto& at : points)
+        extension.add_load(cell.fields().displacement, at, force(at.place, time), loads);
     }
   }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/coupled/equations.hpp"
+#include "core/coupled/mesh_extension.hpp"
 #include "full3d/layout.hpp"
 
 namespace tunica::full3d {
@@ -45,6 +46,10 @@ class CellWork {
   virtual void recover(std::span<const double> right, std::span<double> solution) const = 0;
   /// Adds the loads of Conditions::loads at a time, with their sign in the residual.
   virtual void add_loads(double time, std::span<double> residual) const = 0;
+  /// Adds the blood's cells to the equations of the mesh alone, and the loads of a time on them.
+  virtual void add_mesh(coupled::MeshExtension& extension) const = 0;
+  virtual void add_mesh_loads(double time, const coupled::MeshExtension& extension,
+                              std::span<double> loads) const = 0;
   /// Flow out through a boundary of the blood, cm3/s.
   virtual double flow(const coupled::Stage& stage, std::span<const double> y, Boundary boundary) const = 0;
   /// Adds the volumes (cm3) of the nodes of a part to `volumes`, by node.

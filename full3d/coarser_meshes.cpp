@@ -53,7 +53,7 @@ class OwnMesh final : public coupled::StaticMesh {
 }  // namespace
 
 CoarserMeshes::CoarserMeshes(const Scene& scene, const Setup& finest, Team& team)
-    : scene_(scene), shape_(finest.shape), team_(team) {
+    : scene_(scene), shape_(finest.shape), team_(team), finest_(finest.resolution) {
   // A mesh from a file has none.
   if (finest.axes) return;
   resolutions_ = coarser_resolutions(finest.resolution, finest.problem.mesh.layers());
@@ -70,6 +70,10 @@ CoarserMeshes::CoarserMeshes(const Scene& scene, const Setup& finest, Team& team
 
 std::unique_ptr<coupled::StaticMesh> CoarserMeshes::make(int index) const {
   return std::make_unique<OwnMesh>(scene_, resolutions_[index], team_);
+}
+
+std::unique_ptr<coupled::StaticMesh> CoarserMeshes::make_finest() const {
+  return std::make_unique<OwnMesh>(scene_, finest_, team_);
 }
 
 std::vector<double> CoarserMeshes::prolong(const coupled::Equations& from, std::span<const double> y,

@@ -13,6 +13,8 @@ class CoarserMeshes final : public coupled::CoarserMeshes {
   CoarserMeshes(const Scene& scene, const Setup& finest, Team& team);
   int count() const override { return static_cast<int>(resolutions_.size()); }
   std::unique_ptr<coupled::StaticMesh> make(int index) const override;
+  /// The finest mesh.
+  std::unique_ptr<coupled::StaticMesh> make_finest() const;
   std::vector<double> prolong(const coupled::Equations& from, std::span<const double> y,
                               const coupled::Equations& to) const override;
 
@@ -20,6 +22,7 @@ class CoarserMeshes final : public coupled::CoarserMeshes {
   const Scene& scene_;
   const VesselShape& shape_;
   Team& team_;
+  Resolution finest_;
   std::vector<Resolution> resolutions_;
 };
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "core/coupled/vessel_run.hpp"
+#include "core/error.hpp"
 #include "core/scene/unused.hpp"
 #include "core/stability/warning.hpp"
 #include "core/threads.hpp"
@@ -35,8 +36,15 @@ SolverChoice tried_solver_of(const Scene& scene) {
 /// Throws InvalidInput for what there is no memory for.
 std::unique_ptr<Setup> setup_in_memory(const Scene& scene) {
   auto setup = setup_of(scene);
-  const int rows = rows_of(setup->problem, layout_of(setup->problem));
-  check_memory(method_for(scene.text("solver.method"), rows), rows, available_memory());
+  Problem& problem = setup->problem;
+  const auto check_mesh = [&] {
+    const int rows = rows_of(problem, layout_of(problem));
+    check_memory(method_for(scene.text("solver.method"), rows), rows, available_memory());
+  };
+  // A steady state to begin from is found with the mesh among the unknowns.
+  if (scene.text("time.start") != "rest") check_mesh();
+  problem.discretisation.lagged_mesh = coupled::lags_mesh(scene, problem.mesh.has(Part::blood), true);
+  check_mesh();
   return setup;
 }
 
@@ -47,7 +55,8 @@ class Full3dVessel final : public coupled::Vessel {
         ranks_(team.ranks()),
         setup_(setup_in_memory(scene)),
         solver_(tried_solver_of(scene)),
-        assembler_(setup_->problem, team.ranks(), solver_, team.open(scene, setup_->resolution)),
+        assembler_(setup_->problem, team.ranks(), solver_,
+                   team.open(scene, setup_->resolution, setup_->problem.discretisation.lagged_mesh)),
         coarser_(scene, *setup_, team),
         observer_(*setup_, assembler_),
         fields_(*setup_, assembler_, std::max(1, available_threads() / team.ranks().on_machine())) {}
@@ -55,6 +64,9 @@ class Full3dVessel final : public coupled::Vessel {
   coupled::Loading& loading() override { return *setup_; }
   const coupled::Equations& equations() const override { return assembler_; }
   const coupled::CoarserMeshes& coarser() const override { return coarser_; }
+  std::unique_ptr<coupled::StaticMesh> steady_mesh() const override {
+    return assembler_.layout().mesh_follows() ? coarser_.make_finest() : nullptr;
+  }
   const coupled::Observing& observer() const override { return observer_; }
   const coupled::Picturing& fields() const override { return fields_; }
   double local_tolerance() const override { return setup_->resolution.local_tolerance; }
@@ -77,6 +89,20 @@ class Full3dVessel final : public coupled::Vessel {
     record.resolution["symmetry"] = name_of(setup_->sector);
   }
 
+  void judge_static(std::span<const double> state, RunRecord& record) const override {
+    if (assembler_.has_blood()) return;
+    try {
+      const LeastMode mode = assembler_.least_mode(0, state);
+      TangentStability found = mode.stability;
+      // Meshes from a file have no lines along their wall.
+      if (!setup_->axes)
+        found.wave_length = wave_length(setup_->problem, assembler_.layout(), setup_->shape, mode.motion);
+      coupled::record_stability(found, setup_->problem.tether.traction, record);
+    } catch (const SolverFailure& failure) {
+      record.findings.emplace_back(failure.what());
+    }
+  }
+
   void conclude(RunRecord& record) const override {
     record.resolution["assembly_seconds"] = assembler_.share().assembly_seconds();
     if (const long solutions = assembler_.share().solutions(); solutions > 0) {
@@ -93,7 +119,7 @@ class Full3dVessel final : public coupled::Vessel {
     std::vector<scene::Unused> unused{{{"lumped."}, "the tier is full3d"}};
     if (scene_.text("time.mode") == "static")
       unused.push_back({{"time.beats", "time.start", "time.ramp", "output.interval", "output.profile_times",
-                         "outlet.compliance"},
+                         "outlet.compliance", "solver.geometry"},
                         "time.mode is \"static\""});
     if (!assembler_.has_blood())
       unused.push_back({{"blood.", "inlet.profile", "outlet.", "mesh.blood_cells", "mesh.motion"},

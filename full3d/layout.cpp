@@ -54,6 +54,7 @@ Layout layout_of(const Problem& problem) {
   const Mesh& mesh = problem.mesh;
   coupled::LayoutSpec spec;
   spec.components = 3;
+  spec.mesh_follows = problem.discretisation.lagged_mesh;
   mark_nodes(problem, spec);
   if (mesh.has(Part::blood)) coupled::add_openings(problem, spec);
   const Basis moving = displacement_basis(problem.discretisation.element);

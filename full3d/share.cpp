@@ -39,6 +39,7 @@ Share::Share(const Problem& problem, const Layout& layout, const Ranks& ranks, S
   work_ = cell_work(problem, layout, mine, std::max(1, available_threads() / ranks.on_machine()),
                     choice_.condense);
   share_rows(owner);
+  choice_.mesh_is_given = layout.mesh_follows();
   choice_.name = method_for(choice_.name, rows_of(problem, layout));
 }
 

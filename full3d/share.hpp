@@ -18,7 +18,8 @@ namespace tunica::full3d {
 struct SolverChoice {
   std::string name = "direct";
   std::string options;
-  bool condense = true;  ///< bubbles, cell by cell
+  bool condense = true;        ///< bubbles, cell by cell
+  bool mesh_is_given = false;  ///< the mesh is none of the unknowns
 };
 
 /// What one rank does for the coupled equations: its cells, its rows of the matrix and its part of the

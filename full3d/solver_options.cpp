@@ -17,6 +17,7 @@ namespace tunica::embedded {
 std::string_view solver_direct();
 std::string_view solver_schwarz();
 std::string_view solver_block();
+std::string_view solver_block_given_mesh();
 }  // namespace tunica::embedded
 
 namespace tunica::full3d {
@@ -71,8 +72,9 @@ void insert_options(const SolverChoice& choice, int rows) {
     insert(fmt::format("-pc_asm_local_blocks {}", parts(rows_of_part, 2)));
   } else if (choice.name == "block") {
     insert(options_in(embedded::solver_block()));
-    insert(fmt::format("-fieldsplit_motion_fieldsplit_velocity_pc_asm_local_blocks {}",
-                       parts(rows_of_velocity_part, 1)));
+    if (choice.mesh_is_given) insert(options_in(embedded::solver_block_given_mesh()));
+    insert(fmt::format("-fieldsplit_motion_{}pc_asm_local_blocks {}",
+                       choice.mesh_is_given ? "" : "fieldsplit_velocity_", parts(rows_of_velocity_part, 1)));
   } else {
     insert(options_in(embedded::solver_direct()));
   }

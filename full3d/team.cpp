@@ -4,26 +4,38 @@
 #include <array>
 #include <map>
 
+#include "core/error.hpp"
 #include "full3d/setup.hpp"
+#include "full3d/tangent_stability.hpp"
 
 namespace tunica::full3d {
 
 namespace {
 
-enum Order : int { go, open_problem, drop_problem, compute_residual, compute_factors, compute_solution };
+enum Order : int {
+  go,
+  open_problem,
+  drop_problem,
+  compute_residual,
+  compute_factors,
+  compute_solution,
+  compute_least_mode
+};
 
-/// What goes with an order: the number of the problem, and whether there is a history.
+/// What goes with an order: the number of the problem, and whether there are a history and a given mesh.
 struct Note {
   int order = go;
   int problem = 0;
   int with_history = 0;
+  int with_mesh = 0;
 
   void broadcast(const Ranks& ranks) {
-    std::array<int, 3> numbers{order, problem, with_history};
+    std::array<int, 4> numbers{order, problem, with_history, with_mesh};
     ranks.broadcast(numbers);
     order = numbers[0];
     problem = numbers[1];
     with_history = numbers[2];
+    with_mesh = numbers[3];
   }
 };
 
@@ -32,7 +44,7 @@ using StageNumbers = std::array<double, 2 + coupled::boundaries>;
 class TeamAnnouncer final : public Announcer {
  public:
   TeamAnnouncer(const Ranks& ranks, int problem) : ranks_(ranks), problem_(problem) {}
-  ~TeamAnnouncer() override { Note{drop_problem, problem_, 0}.broadcast(ranks_); }
+  ~TeamAnnouncer() override { Note{drop_problem, problem_}.broadcast(ranks_); }
 
   void residual(const LoadedStage& stage, std::span<const double> y) override {
     announce(compute_residual, stage, y);
@@ -40,12 +52,15 @@ class TeamAnnouncer final : public Announcer {
   void factorise(const LoadedStage& stage, std::span<const double> y) override {
     announce(compute_factors, stage, y);
   }
-  void solve() override { Note{compute_solution, problem_, 0}.broadcast(ranks_); }
+  void least_mode(const LoadedStage& stage, std::span<const double> y) override {
+    announce(compute_least_mode, stage, y);
+  }
+  void solve() override { Note{compute_solution, problem_}.broadcast(ranks_); }
 
  private:
   void announce(Order order, const LoadedStage& at, std::span<const double> y) {
-    const bool with_history = !at.stage.history.empty();
-    Note{order, problem_, with_history ? 1 : 0}.broadcast(ranks_);
+    const bool with_history = !at.stage.history.empty(), with_mesh = !at.stage.mesh.empty();
+    Note{order, problem_, with_history ? 1 : 0, with_mesh ? 1 : 0}.broadcast(ranks_);
     StageNumbers numbers{at.stage.time, at.stage.coefficient};
     std::copy(at.pressure.begin(), at.pressure.end(), numbers.begin() + 2);
     ranks_.broadcast(numbers);
@@ -55,31 +70,47 @@ class TeamAnnouncer final : public Announcer {
     };
     send(y);
     if (with_history) send(at.stage.history);
+    if (!with_mesh) return;
+    send(at.stage.mesh);
+    send(at.stage.mesh_rate);
   }
 
   const Ranks& ranks_;
   int problem_;
 };
 
-using ResolutionNumbers = std::array<int, 4>;
+using ResolutionNumbers = std::array<int, 5>;  ///< and whether the mesh lags
 
 /// A problem on a rank that serves.
 struct Served {
-  Served(const Scene& scene, const Resolution& resolution, const Ranks& ranks)
+  Served(const Scene& scene, const Resolution& resolution, bool lagged_mesh, const Ranks& ranks)
       : setup(setup_of(scene, resolution)),
-        layout(layout_of(setup->problem)),
+        layout(layout_with(lagged_mesh)),
         share(setup->problem, layout, ranks, solver_of(scene)),
         y(layout.size()),
         history(layout.size()),
+        mesh(layout.velocity_begin()),
+        mesh_rate(mesh.size()),
         residual(layout.unknowns()) {}
 
-  LoadedStage receive(const Ranks& ranks, bool with_history) {
+  Layout layout_with(bool lagged_mesh) {
+    setup->problem.discretisation.lagged_mesh = lagged_mesh;
+    return layout_of(setup->problem);
+  }
+
+  LoadedStage receive(const Ranks& ranks, const Note& note) {
     StageNumbers numbers{};
     ranks.broadcast(numbers);
     ranks.broadcast(y);
-    if (with_history) ranks.broadcast(history);
+    if (note.with_history != 0) ranks.broadcast(history);
+    if (note.with_mesh != 0)
+      for (auto* part : {&mesh, &mesh_rate}) ranks.broadcast(*part);
     LoadedStage at{{numbers[0], numbers[1], {}}, {}};
-    if (with_history) at.stage.history = history;
+    if (note.with_history != 0) at.stage.history = history;
+    if (note.with_mesh != 0) {
+      at.stage.mesh = mesh;
+      at.stage.mesh_rate = mesh_rate;
+    }
     std::copy(numbers.begin() + 2, numbers.end(), at.pressure.begin());
     return at;
   }
@@ -87,7 +118,7 @@ struct Served {
   std::unique_ptr<Setup> setup;
   Layout layout;
   Share share;
-  std::vector<double> y, history, residual;
+  std::vector<double> y, history, mesh, mesh_rate, residual;
 };
 
 }  // namespace
@@ -96,12 +127,12 @@ Team::~Team() {
   if (ranks_.size() > 1) Note{}.broadcast(ranks_);
 }
 
-std::unique_ptr<Announcer> Team::open(const Scene& scene, const Resolution& resolution) {
+std::unique_ptr<Announcer> Team::open(const Scene& scene, const Resolution& resolution, bool lagged_mesh) {
   if (ranks_.size() == 1) return nullptr;
-  Note{open_problem, opened_, 0}.broadcast(ranks_);
+  Note{open_problem, opened_}.broadcast(ranks_);
   for (std::string text : {describe(scene), scene.name(), scene.folder().string()}) ranks_.broadcast(text);
   ResolutionNumbers numbers{resolution.wall_cells, resolution.blood_cells, resolution.axial_cells,
-                            resolution.around_cells};
+                            resolution.around_cells, lagged_mesh ? 1 : 0};
   ranks_.broadcast(numbers);
   return std::make_unique<TeamAnnouncer>(ranks_, opened_++);
 }
@@ -123,7 +154,7 @@ void serve(const Ranks& ranks) {
         resolution.blood_cells = numbers[1];
         resolution.axial_cells = numbers[2];
         resolution.around_cells = numbers[3];
-        problems[note.problem] = std::make_unique<Served>(scene, resolution, ranks);
+        problems[note.problem] = std::make_unique<Served>(scene, resolution, numbers[4] != 0, ranks);
         break;
       }
       case drop_problem:
@@ -131,14 +162,24 @@ void serve(const Ranks& ranks) {
         break;
       case compute_residual: {
         Served& served = *problems.at(note.problem);
-        const LoadedStage at = served.receive(ranks, note.with_history != 0);
+        const LoadedStage at = served.receive(ranks, note);
         served.share.residual(at, served.y, served.residual);
         break;
       }
       case compute_factors: {
         Served& served = *problems.at(note.problem);
-        const LoadedStage at = served.receive(ranks, note.with_history != 0);
+        const LoadedStage at = served.receive(ranks, note);
         served.share.factorise(at, served.y);
+        break;
+      }
+      case compute_least_mode: {
+        Served& served = *problems.at(note.problem);
+        const LoadedStage at = served.receive(ranks, note);
+        try {
+          least_mode(served.share, served.layout, ranks, at, served.y);
+        } catch (const SolverFailure&) {
+          // The leader tells.
+        }
         break;
       }
       case compute_solution:

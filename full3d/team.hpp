@@ -25,7 +25,7 @@ class Team {
   const Ranks& ranks() const { return ranks_; }
   /// Has the other ranks set up the problem of a scene at a resolution; the announcer tells them what to do
   /// with it, and to drop it when it goes. Null with one rank.
-  std::unique_ptr<Announcer> open(const Scene& scene, const Resolution& resolution);
+  std::unique_ptr<Announcer> open(const Scene& scene, const Resolution& resolution, bool lagged_mesh = false);
 
  private:
   const Ranks& ranks_;

@@ -27,6 +27,9 @@ struct Discretisation {
   /// Make small cells of the blood's mesh stiffer (by the inverse square of their size), which keeps them
   /// from inverting under large motion of the wall.
   bool stiffened_mesh = false;
+  /// The mesh in the blood is where the steps before lead to expect it (Stage::mesh), and none of the
+  /// unknowns: it follows the wall after the step.
+  bool lagged_mesh = false;
 };
 
 enum class InletKind {

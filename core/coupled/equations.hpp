@@ -16,6 +16,9 @@ struct Stage {
   double time = 0;
   double coefficient = 0;
   std::span<const double> history;  ///< empty for 0
+  /// Displacement that the mesh in the blood has off the wall, and its rate, where they are given and not
+  /// those of the state; entries as in y.
+  std::span<const double> mesh = {}, mesh_rate = {};
 };
 
 inline double rate(const Stage& stage, std::span<const double> y, std::size_t entry) {
@@ -60,9 +63,12 @@ class Equations {
   /// Residual at a complete state. False when some cell is inverted or a value is not finite: `residual` is
   /// then of no use.
   virtual bool residual(const Stage& stage, std::span<const double> y, std::span<double> residual) const = 0;
+  /// Moves the mesh in the blood after the wall where it is none of the unknowns (Layout::mesh_follows).
+  virtual void follow(double /*time*/, std::span<double> /*y*/) const {}
   /// Of the latest residual.
   virtual const LeastJacobian& least_jacobian() const = 0;
-  /// The derivative is exact, by duals, the motion of the mesh included. The equations must outlive it.
+  /// The derivative is exact, by duals, the motion of the mesh included where it is unknown. The equations
+  /// must outlive it.
   virtual std::unique_ptr<TangentSolver> tangent_solver() const = 0;
 
   virtual bool has_wall() const = 0;

@@ -11,6 +11,16 @@
 /// What kernels need of a state: the nodal values and rates of a cell or side.
 namespace tunica::coupled {
 
+/// Displacement and its rate of a node: off the wall as the stage gives them, where it does.
+struct Motion {
+  double displacement, velocity;
+};
+inline Motion motion(const Layout& layout, const Stage& stage, std::span<const double> y, int node,
+                     std::size_t entry) {
+  if (stage.mesh.empty() || layout.on_wall(node)) return {y[entry], rate(stage, y, entry)};
+  return {stage.mesh[entry], stage.mesh_rate[entry]};
+}
+
 /// Nodes of the mesh that the shape functions of a blood cell's fields belong to.
 struct BloodCellNodes {
   std::span<const int> displacement, velocity, pressure;
@@ -22,9 +32,10 @@ kernel::BloodNodes<Frame, Width> blood_nodes(const Layout& layout, const BloodCe
   kernel::BloodNodes<Frame, Width> nodes;
   for (int c = 0; c < Frame::components; ++c) {
     for (std::size_t k = 0; k < cell.displacement.size(); ++k) {
-      const std::size_t entry = layout.displacement(cell.displacement[k], c);
-      nodes.displacement.value[c][k] = y[entry];
-      nodes.mesh_velocity.value[c][k] = rate(stage, y, entry);
+      const int node = cell.displacement[k];
+      const Motion mesh = motion(layout, stage, y, node, layout.displacement(node, c));
+      nodes.displacement.value[c][k] = mesh.displacement;
+      nodes.mesh_velocity.value[c][k] = mesh.velocity;
     }
     for (std::size_t k = 0; k < cell.velocity.size(); ++k) {
       const std::size_t entry = layout.velocity(cell.velocity[k], c);
@@ -55,9 +66,9 @@ kernel::SideNodes<Frame, Width> side_nodes(const Layout& layout, std::span<const
   kernel::SideNodes<Frame, Width> nodes;
   for (int c = 0; c < Frame::components; ++c)
     for (std::size_t k = 0; k < side.size(); ++k) {
-      const std::size_t d = layout.displacement(side[k], c);
-      nodes.displacement.value[c][k] = y[d];
-      nodes.mesh_velocity.value[c][k] = rate(stage, y, d);
+      const Motion mesh = motion(layout, stage, y, side[k], layout.displacement(side[k], c));
+      nodes.displacement.value[c][k] = mesh.displacement;
+      nodes.mesh_velocity.value[c][k] = mesh.velocity;
       nodes.velocity.value[c][k] = y[layout.velocity(side[k], c)];
     }
   return nodes;

@@ -7,6 +7,7 @@ namespace tunica::coupled {
 
 Layout::Layout(const LayoutSpec& spec)
     : components_(spec.components),
+      mesh_follows_(spec.mesh_follows),
       pressure_index_(spec.on_wall.size(), -1),
       on_wall_(spec.on_wall),
       has_displacement_(spec.has_displacement),
@@ -46,8 +47,15 @@ void Layout::number(const LayoutSpec& spec) {
     prescribed_.push_back({entry, fixed.node, fixed.component, fixed.is_velocity});
   }
 
+  if (mesh_follows_) follower_.assign(velocity_, -1);
   const auto give_number = [&](std::size_t entry) {
     if (unknown_[entry] != wanted) return;
+    if (mesh_follows_ && entry < velocity_ && !on_wall_[node_of(entry)]) {
+      unknown_[entry] = -1;
+      follower_[entry] = static_cast<int>(followers_.size());
+      followers_.push_back(entry);
+      return;
+    }
     unknown_[entry] = static_cast<int>(entries_.size());
     entries_.push_back(entry);
   };

@@ -14,6 +14,7 @@ struct LayoutSpec {
   std::vector<bool> on_wall;  ///< nodes on the wall and on its surfaces, that of a rigid pipe included
   std::vector<bool> has_pressure;
   bool inlet_pressure = false, outlet_pressure = false, windkessel_pressure = false;
+  bool mesh_follows = false;  ///< the displacement off the wall is no unknown
   /// Values that are prescribed, if they are unknowns at all; later ones that repeat earlier ones are
   /// ignored.
   struct Fixed {
@@ -56,6 +57,12 @@ class Layout {
   /// Scalars: pressure that drives a given flow in, pressure at the outlet, pressure in the Windkessel.
   std::optional<std::size_t> inlet_pressure, outlet_pressure, windkessel_pressure;
 
+  /// The displacement off the wall is none of the unknowns, but found from that of the wall.
+  bool mesh_follows() const { return mesh_follows_; }
+  /// Its entries of y that are not prescribed, and the number of an entry among them, or -1.
+  const std::vector<std::size_t>& followers() const { return followers_; }
+  int follower(std::size_t entry) const { return follower_.empty() ? -1 : follower_[entry]; }
+
   /// Number of the unknown at an entry of y, or -1.
   int unknown(std::size_t entry) const { return unknown_[entry]; }
   /// Entry of y of an unknown.
@@ -80,9 +87,11 @@ class Layout {
   void number(const LayoutSpec& spec);
 
   int components_;
+  bool mesh_follows_;
   std::size_t velocity_ = 0, pressure_ = 0, scalar_ = 0, size_ = 0;
   std::vector<int> pressure_index_, unknown_;
-  std::vector<std::size_t> entries_;
+  std::vector<std::size_t> entries_, followers_;
+  std::vector<int> follower_;  ///< by entry of the displacement
   std::vector<bool> on_wall_, has_displacement_, has_velocity_;
   std::vector<int> wall_nodes_;
   std::vector<PrescribedEntry> prescribed_;

@@ -30,6 +30,11 @@ Element element_of(const Scene& scene) {
   return Element::quadratic;
 }
 
+bool lags_mesh(const Scene& scene, bool with_blood, bool with_wall) {
+  return scene.text("solver.geometry") == "lagged" && scene.text("time.mode") != "static" && with_blood &&
+         with_wall;
+}
+
 bool needs_profile(const Scene& scene, const Loading& loading, InletCondition& inlet) {
   const Loading* const here = &loading;
   inlet.value = [here](double time) { return here->inlet_value(time); };

@@ -43,6 +43,10 @@ bool needs_blood(const Scene& scene, const Loading& loading);
 
 Element element_of(const Scene& scene);
 
+/// Steps in time take the mesh in the blood from the steps before (Discretisation::lagged_mesh), for a vessel
+/// with such parts.
+bool lags_mesh(const Scene& scene, bool with_blood, bool with_wall);
+
 /// Sets kind and value of a scene's inlet. True when it prescribes a velocity, whose profile is the caller's
 /// to give. Throws InvalidInput for a profile on a section that may widen.
 bool needs_profile(const Scene& scene, const Loading& loading, InletCondition& inlet);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <iterator>
 
@@ -64,6 +65,14 @@ Numbers<Frame, Width> blood_numbers(const Layout& layout, const BloodCellNodes& 
   for (std::size_t k = 0; k < cell.pressure.size(); ++k)
     numbers.continuity[k] = numbers.pressure[k] = layout.unknown(layout.pressure(cell.pressure[k]));
   return numbers;
+}
+
+/// Some displacement is among the unknowns.
+template <class Frame, int Width>
+bool has_displacement(const Numbers<Frame, Width>& numbers) {
+  return std::any_of(numbers.displacement.begin(), numbers.displacement.end(), [](const auto& component) {
+    return std::any_of(component.begin(), component.end(), [](int unknown) { return unknown >= 0; });
+  });
 }
 
 template <class Frame, int Width>

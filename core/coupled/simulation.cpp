@@ -12,11 +12,20 @@
 
 namespace tunica::coupled {
 
+ExpectedMesh::ExpectedMesh(const Layout& layout)
+    : mesh_(layout.mesh_follows() ? layout.velocity_begin() : 0), rate_(mesh_.size()) {}
+
+Stage ExpectedMesh::stage(const time::Scheme& scheme, double time) {
+  if (!mesh_.empty()) scheme.expect(mesh_, rate_);
+  return {time, scheme.stage().coefficient, scheme.history(), mesh_, rate_};
+}
+
 Simulation::Simulation(const Equations& equations, const SimulationOptions& options)
     : equations_(equations),
       options_(options),
       newton_(equations),
       scheme_(options.method, options.spectral_radius),
+      expected_mesh_(equations.layout()),
       control_(options.steps),
       candidate_(equations.layout().size()),
       error_(equations.layout().size()),
@@ -93,7 +102,7 @@ void Simulation::advance(double stop) {
     std::copy(prediction.begin(), prediction.end(), candidate_.begin());
     // A step up to a jump bears the loads of before.
     const double loads = jumps_at(at.time) ? at.time * (1 - 1e-12) : at.time;
-    const Stage stage{loads, at.coefficient, scheme_.history()};
+    const Stage stage = expected_mesh_.stage(scheme_, loads);
     const NewtonReport report = newton_.solve(stage, candidate_, newton);
     time::Verdict verdict = time::Verdict::retry;
     if (report.converged) {
@@ -107,6 +116,7 @@ void Simulation::advance(double stop) {
     if (verdict == time::Verdict::accept) break;
   }
   step_begin_ = time();
+  equations_.follow(scheme_.stage().time, candidate_);
   scheme_.accept(candidate_);
   least_jacobian_ = std::min(least_jacobian_, equations_.least_jacobian().value);
   if (at_milestone()) newton_.forget();

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/coupled/newton.hpp"
+#include "core/time/scheme.hpp"
 #include "core/time/step_control.hpp"
 
 namespace tunica::coupled {
@@ -24,6 +25,18 @@ struct SimulationOptions {
   std::vector<double> jumps;
   /// Accepted steps after which the factorisation is dropped, so that a run resumed there is the same.
   long milestone = 50;
+};
+
+/// Where the mesh in the blood is expected within a step, for layouts whose mesh follows the wall.
+class ExpectedMesh {
+ public:
+  explicit ExpectedMesh(const Layout& layout);
+  /// The stage of the step that the scheme has begun, with the loads of `time`. It refers to the scheme and
+  /// to this.
+  Stage stage(const time::Scheme& scheme, double time);
+
+ private:
+  std::vector<double> mesh_, rate_;  ///< empty where the mesh is unknown
 };
 
 /// Computes a vessel step by step.
@@ -69,6 +82,7 @@ class Simulation {
   SimulationOptions options_;
   Newton newton_;
   time::Scheme scheme_;
+  ExpectedMesh expected_mesh_;
   time::StepControl control_;
   std::vector<double> candidate_, error_;
   std::size_t worst_ = 0;       ///< entry with the greatest share in the error of the last step tried

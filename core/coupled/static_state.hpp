@@ -14,7 +14,7 @@ struct StaticReport {
   int load_steps = 0;
   int rejected = 0;
   int guesses_missed = 0;  ///< guesses that Newton's method did not get from to the state: steps in time did
-  NewtonCounts coarse;     ///< on the meshes that were gone through
+  NewtonCounts coarse;     ///< of solvers other than the one that was given
 };
 
 /// A mesh of the vessel with its loads and equations.

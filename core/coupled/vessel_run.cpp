@@ -228,8 +228,18 @@ class VesselRun final : public TierRun {
 
   std::vector<double> steady(const std::function<bool()>& interrupted, double time = 0) {
     phase_ = Phase::steady;
-    return static_state(loading_, vessel_->equations(), vessel_->coarser(), simulation_.newton(), time,
-                        1e-5 * vessel_->local_tolerance(), interrupted, static_);
+    const double tolerance = 1e-5 * vessel_->local_tolerance();
+    const auto own = vessel_->steady_mesh();
+    if (!own)
+      return static_state(loading_, vessel_->equations(), vessel_->coarser(), simulation_.newton(), time,
+                          tolerance, interrupted, static_);
+    Newton newton(own->equations());
+    newton.set_sizes(simulation_.newton().sizes());
+    auto state = static_state(own->loading(), own->equations(), vessel_->coarser(), newton, time, tolerance,
+                              interrupted, static_);
+    simulation_.newton().set_sizes(newton.sizes());
+    static_.coarse += newton.counts();
+    return state;
   }
 
   /// False when the run is to end.

@@ -50,6 +50,9 @@ class Vessel {
   virtual Loading& loading() = 0;
   virtual const Equations& equations() const = 0;
   virtual const CoarserMeshes& coarser() const = 0;
+  /// Equations whose steady states are found, where those of equations() are for steps in time alone: their
+  /// mesh lags. Null where they serve both.
+  virtual std::unique_ptr<StaticMesh> steady_mesh() const { return nullptr; }
   virtual const Observing& observer() const = 0;
   virtual const Picturing& fields() const = 0;
   virtual double local_tolerance() const = 0;   ///< of a time step

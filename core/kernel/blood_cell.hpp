@@ -32,6 +32,8 @@ struct BloodParameters {
   double mesh_stiffness = 1;
   /// Equal linear bases: size of the cell, cm, for the pressure stabilisation; 0 leaves it out.
   double stabilised_size = 0;
+  /// Where the mesh is is given: nothing is differentiated by it.
+  bool mesh_is_given = false;
 };
 
 /// Residuals of momentum, mesh motion and continuity, tested with every shape function.
@@ -100,22 +102,38 @@ void add_blood_residual(const BloodParameters& parameters, const BloodPoint<Fram
       residual.continuity[k] += at.weight * flux[Frame::axes[a]] * at.pressure.lift[1 + a][k];
 }
 
-/// Adds the derivative of the residual at a quadrature point, those by the motion of the mesh included. The
-/// time of the pressure stabilisation is taken as constant.
+/// Adds the derivative of the mesh's motion by the displacement.
 template <class Frame, int Width>
+void add_mesh_tangent(double stiffness, const BloodPoint<Frame, Width>& at,
+                      Block<Width> (&blocks)[Frame::components][Frame::components]) {
+  constexpr auto vectors = vector_slots<Frame>();
+  const auto mesh = [&](int out, int in) { return out == in && out >= Frame::components ? stiffness : 0.0; };
+  contract(at.weight, vectors, vectors, mesh, at.displacement, at.displacement, blocks);
+}
+
+namespace detail {
+
+/// `moves`: by the motion of the mesh, too.
+template <bool moves, class Frame, int Width>
 void add_blood_tangent(const BloodParameters& parameters, const BloodPoint<Frame, Width>& at,
                        const BloodNodes<Frame, Width>& nodes, BloodTangent<Frame, Width>& tangent) {
   constexpr int n = Frame::components, g = gradient_size<Frame>, m = Frame::dimension;
-  constexpr int velocity = 0, displacement = n + g, pressure = 2 * (n + g), inputs = pressure + 1 + m;
+  constexpr int velocity = 0, displacement = n + g, pressure = (moves ? 2 : 1) * (n + g),
+                inputs = pressure + 1 + m;
   using D = Dual<double, inputs>;
   const auto plain_state = detail::blood_state(at, nodes);
   const double c = parameters.rate_coefficient;
   physics::BloodState<D> state;
-  state.velocity = seed_vector<Frame, inputs>(plain_state.velocity, velocity);
   state.velocity_gradient = seed_gradient<Frame, inputs>(plain_state.velocity_gradient, velocity + n);
   state.acceleration = seed_vector<Frame, inputs>(plain_state.acceleration, velocity, c);
-  state.mesh_velocity = seed_vector<Frame, inputs>(plain_state.mesh_velocity, displacement, c);
-  state.mesh_gradient = seed_gradient<Frame, inputs>(plain_state.mesh_gradient, displacement + n);
+  state.velocity = seed_vector<Frame, inputs>(plain_state.velocity, velocity);
+  if constexpr (moves) {
+    state.mesh_velocity = seed_vector<Frame, inputs>(plain_state.mesh_velocity, displacement, c);
+    state.mesh_gradient = seed_gradient<Frame, inputs>(plain_state.mesh_gradient, displacement + n);
+  } else {
+    for (int i = 0; i < 3; ++i) state.mesh_velocity[i] = D(plain_state.mesh_velocity[i]);
+    for (int k = 0; k < 9; ++k) state.mesh_gradient.entries[k] = D(plain_state.mesh_gradient.entries[k]);
+  }
   state.pressure = D::variable(plain_state.pressure, pressure);
   const auto balance = physics::blood_balance(parameters.blood, state);
 
@@ -130,12 +148,13 @@ void add_blood_tangent(const BloodParameters& parameters, const BloodPoint<Frame
   };
   contract(at.weight, vectors, vectors, momentum(velocity), at.velocity, at.velocity,
            tangent.momentum_velocity);
-  contract(at.weight, vectors, vectors, momentum(displacement), at.velocity, at.displacement,
-           tangent.momentum_displacement);
+  if constexpr (moves) {
+    contract(at.weight, vectors, vectors, momentum(displacement), at.velocity, at.displacement,
+             tangent.momentum_displacement);
+    add_mesh_tangent(parameters.mesh_stiffness, at, tangent.mesh_displacement);
+  }
   contract(at.weight, vectors, value, momentum(pressure), at.velocity, at.pressure,
            tangent.momentum_pressure);
-  const auto mesh = [&](int out, int in) { return out == in && out >= n ? parameters.mesh_stiffness : 0.0; };
-  contract(at.weight, vectors, vectors, mesh, at.displacement, at.displacement, tangent.mesh_displacement);
 
   if (parameters.stabilised_size <= 0) {
     const auto continuity = [&](int from) {
@@ -143,8 +162,9 @@ void add_blood_tangent(const BloodParameters& parameters, const BloodPoint<Frame
     };
     contract(at.weight, value, vectors, continuity(velocity), at.pressure, at.velocity,
              tangent.continuity_velocity);
-    contract(at.weight, value, vectors, continuity(displacement), at.pressure, at.displacement,
-             tangent.continuity_displacement);
+    if constexpr (moves)
+      contract(at.weight, value, vectors, continuity(displacement), at.pressure, at.displacement,
+               tangent.continuity_displacement);
     return;
   }
   Vector<D> pressure_gradient;
@@ -161,10 +181,24 @@ void add_blood_tangent(const BloodParameters& parameters, const BloodPoint<Frame
   };
   contract(at.weight, scalars, vectors, continuity(velocity), at.pressure, at.velocity,
            tangent.continuity_velocity);
-  contract(at.weight, scalars, vectors, continuity(displacement), at.pressure, at.displacement,
-           tangent.continuity_displacement);
+  if constexpr (moves)
+    contract(at.weight, scalars, vectors, continuity(displacement), at.pressure, at.displacement,
+             tangent.continuity_displacement);
   contract(at.weight, scalars, scalars, continuity(pressure), at.pressure, at.pressure,
            tangent.continuity_pressure);
+}
+
+}  // namespace detail
+
+/// Adds the derivative of the residual at a quadrature point, those by the motion of the mesh included unless
+/// it is given. The time of the pressure stabilisation is taken as constant.
+template <class Frame, int Width>
+void add_blood_tangent(const BloodParameters& parameters, const BloodPoint<Frame, Width>& at,
+                       const BloodNodes<Frame, Width>& nodes, BloodTangent<Frame, Width>& tangent) {
+  if (parameters.mesh_is_given)
+    detail::add_blood_tangent<false>(parameters, at, nodes, tangent);
+  else
+    detail::add_blood_tangent<true>(parameters, at, nodes, tangent);
 }
 
 }  // namespace tunica::kernel

@@ -312,6 +312,10 @@ std::vector<Parameter> declare() {
              "How the 3D tier solves its linear systems: direct factorises (MUMPS), schwarz is GMRES "
              "with additive Schwarz, block GMRES with a preconditioner by fields; auto is direct up "
              "to 300,000 unknowns and block beyond."));
+  all.push_back(
+      choice("solver.geometry", "implicit", {"implicit", "lagged"},
+             "How the mesh in the blood moves within a step: implicit solves for it together with all else, "
+             "lagged takes it from the steps before, which leaves fewer unknowns (2D and 3D tiers)."));
   all.push_back({"solver.options",
                  Kind::text,
                  "",

@@ -95,6 +95,24 @@ void Scheme::polynomial(double ahead, std::span<double> out) const {
   for (std::size_t i = 0; i < size; ++i) out[i] = y0[i] + first * (y0[i] - y1[i]) - second * (y1[i] - y2[i]);
 }
 
+void Scheme::expect(std::span<double> values, std::span<double> rates) const {
+  const double ahead = stage_.time - time_;
+  const std::vector<double>&y = values_[0], &r = rates_[0];
+  if (steps_ > 0) {
+    const double slope = ahead / step_sizes_[0];
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = y[i] + slope * (y[i] - values_[1][i]);
+  } else {
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = y[i] + ahead * r[i];
+  }
+  if (known_rates() < 2) {
+    std::copy(r.begin(), r.begin() + static_cast<std::ptrdiff_t>(rates.size()), rates.begin());
+    return;
+  }
+  const double past = step_sizes_[0] + rate_offsets_[0] - rate_offsets_[1];
+  const double slope = (ahead - rate_offsets_[0]) / past;
+  for (std::size_t i = 0; i < rates.size(); ++i) rates[i] = r[i] + slope * (r[i] - rates_[1][i]);
+}
+
 void Scheme::end_value(std::span<const double> stage_value, std::span<double> out) const {
   if (stage_.order == 1 || method_ == Method::bdf2) {
     std::copy(stage_value.begin(), stage_value.end(), out.begin());

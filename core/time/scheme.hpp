@@ -69,6 +69,10 @@ class Scheme {
   /// the start y + (t* - t) dy/dt.
   std::span<const double> prediction() const { return prediction_; }
 
+  /// First entries of the values and rates to be expected at the time of the stage: linear through the last
+  /// two of each, as far as there are.
+  void expect(std::span<double> values, std::span<double> rates) const;
+
   /// y_(n+1) from y*.
   void end_value(std::span<const double> stage_value, std::span<double> out) const;
 

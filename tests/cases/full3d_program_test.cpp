@@ -163,6 +163,24 @@ TEST(MeshInSpace, IsNotForTheTiersOfFewerDimensions) {
   }
 }
 
+TEST(Ranks, FindTheSameLeastMode) {
+  const Arguments settings{"time.mode=static",      "inlet.waveform=pressure", "inlet.pressure=100 mmHg",
+                           "geometry.length=0.1",   "wall.law=EXP1+EXP2-FS",   "tether.traction=reference",
+                           "inlet.profile=natural", "geometry.ends=sliding"};
+  std::vector<nlohmann::json> records;
+  for (const int ranks : {1, 2}) {
+    const TemporaryFolder folder;
+    const Ended ended = run(on_ranks(ranks, run_with(settings)), folder.path());
+    ASSERT_EQ(ended.code, 0) << ended.errors;
+    records.push_back(read_result(folder.path() / "r").record);
+  }
+  for (const char* number : {"negative_pivots", "least_eigenvalue"}) {
+    // Signs are counted: bisection ends at the same number.
+    EXPECT_EQ(records[0].at("resolution").at(number), records[1].at("resolution").at(number)) << number;
+  }
+  EXPECT_EQ(records[0].at("findings"), records[1].at("findings"));
+}
+
 /// Processes that one has started, by their rank in the world; 0 for ranks that are not there.
 pid_t process_of_rank(pid_t parent, int rank) {
   std::ifstream children("/proc/" + std::to_string(parent) + "/task/" + std::to_string(parent) + "/children");

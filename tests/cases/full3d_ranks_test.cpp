@@ -32,7 +32,7 @@ constexpr Cells coarsest{1, 1, 8, 8};
 
 /// Two steps from rest.
 Finished steps_by(const std::string& method, int ranks, const Cells& cells = coarsest, double step = 1e-2,
-                  const std::string& options = "") {
+                  const std::string& options = "", const std::string& geometry = "implicit") {
   const TemporaryFolder folder;
   std::vector<std::string> call{"/usr/bin/env",
                                 "OMPI_ALLOW_RUN_AS_ROOT=1",
@@ -56,7 +56,7 @@ Finished steps_by(const std::string& method, int ranks, const Cells& cells = coa
         "inlet.period=" + std::to_string(2 * step), "time.step=" + std::to_string(step),
         "mesh.wall_cells=" + std::to_string(cells[0]), "mesh.blood_cells=" + std::to_string(cells[1]),
         "mesh.axial_cells=" + std::to_string(cells[2]), "mesh.around_cells=" + std::to_string(cells[3]),
-        "solver.method=\"" + method + "\""})
+        "solver.method=\"" + method + "\"", "solver.geometry=" + geometry})
     call.insert(call.end(), {"--set", setting});
   if (!options.empty()) call.insert(call.end(), {"--set", "solver.options=\"" + options + "\""});
   Program run(call, folder.path());
@@ -66,11 +66,18 @@ Finished steps_by(const std::string& method, int ranks, const Cells& cells = coa
 }
 
 // Newton ends at 3e-7 of each field by the scene's tolerance.
-TEST(full3d, TwoProcessesFindTheSameByEveryMethod) {
-  const Finished direct = steps_by("direct", 1);
+class EveryGeometry : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(full3d, EveryGeometry, testing::Values("implicit", "lagged"),
+                         [](const auto& test) { return std::string(test.param); });
+
+TEST_P(EveryGeometry, TwoProcessesFindTheSameByEveryMethod) {
+  const auto steps = [](const std::string& method, int ranks) {
+    return steps_by(method, ranks, coarsest, 1e-2, "", GetParam());
+  };
+  const Finished direct = steps("direct", 1);
   for (const char* method : {"direct", "schwarz", "block"}) {
     SCOPED_TRACE(method);
-    const Finished two = steps_by(method, 2);
+    const Finished two = steps(method, 2);
     const auto says = [&](const std::string& text) { return two.record.find(text) != std::string::npos; };
     EXPECT_TRUE(says("\"ranks\": 2"));
     EXPECT_TRUE(says("\"solver\": \"" + std::string(method) + "\""));

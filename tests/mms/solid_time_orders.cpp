@@ -54,5 +54,10 @@ TEST_F(SolidTimeOrders, OfGeneralizedAlpha) {
   expect_order(time::Method::generalized_alpha, 2, 2);
 }
 
+TEST_F(SolidTimeOrders, OfBdf2WhereTheMeshLags) {
+  problem.discretisation.lagged_mesh = true;
+  expect_order(time::Method::bdf2, 2, 2);
+}
+
 }  // namespace
 }  // namespace tunica::mms

@@ -90,5 +90,27 @@ TEST_F(TimeOrders, OfGeneralizedAlpha) {
   expect_order(time::Method::generalized_alpha, equal_steps, 2, 2);
 }
 
+// With a mesh that lags: where it is and how fast it moves are extrapolated to second order each.
+class LaggedTimeOrders : public TimeOrders {
+ protected:
+  LaggedTimeOrders() { problem.discretisation.lagged_mesh = true; }
+};
+
+TEST_F(LaggedTimeOrders, OfBdf2WithEqualSteps) {
+  expect_order(time::Method::bdf2, equal_steps, 2, 2);
+}
+
+TEST_F(LaggedTimeOrders, OfBdf2WithStepsThatVary) {
+  expect_order(time::Method::bdf2, smooth, 2, 2);
+}
+
+TEST_F(LaggedTimeOrders, OfBackwardEuler) {
+  expect_order(time::Method::backward_euler, equal_steps, 1, 1);
+}
+
+TEST_F(LaggedTimeOrders, OfGeneralizedAlpha) {
+  expect_order(time::Method::generalized_alpha, equal_steps, 2, 2);
+}
+
 }  // namespace
 }  // namespace tunica::mms

@@ -101,7 +101,7 @@ void with_every_inlet_and_outlet(coupled::Conditions<dimension>& conditions, con
 }
 
 struct State {
-  std::vector<double> value, history;
+  std::vector<double> value, history, mesh, mesh_rate;
   coupled::Stage stage;
 };
 
@@ -121,6 +121,13 @@ inline void add_pressures_and_rates(const coupled::Equations& equations, double 
   }
   state.stage = {0.3, rate_coefficient, state.history};
   equations.complete(state.stage, state.value);
+  if (!layout.mesh_follows()) return;
+  for (std::size_t e = 0; e < layout.velocity_begin(); ++e) {
+    state.mesh.push_back(state.value[e] * (1 + 0.05 * random.uniform(-1, 1)));
+    state.mesh_rate.push_back(mesh_speed * random.uniform(-1, 1));
+  }
+  state.stage.mesh = state.mesh;
+  state.stage.mesh_rate = state.mesh_rate;
 }
 
 enum Field { wall_displacement, mesh_displacement, velocity, pressure, scalar, fields };

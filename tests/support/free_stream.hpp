@@ -8,8 +8,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/coupled/newton.hpp"
-#include "core/time/scheme.hpp"
+#include "core/coupled/simulation.hpp"
 
 namespace tunica::test_support {
 
@@ -37,6 +36,7 @@ inline FreeStream keep_stream(const coupled::Equations& equations, time::Method 
   const double speed = size(layout.velocity_begin(), layout.pressure_begin()),
                pressure = size(layout.pressure_begin(), layout.scalar_begin());
   coupled::Newton newton(equations);
+  coupled::ExpectedMesh mesh(layout);
   time::Scheme scheme(method);
   scheme.start(0, state, std::vector<double>(state.size(), 0.0));
   FreeStream stream;
@@ -44,12 +44,13 @@ inline FreeStream keep_stream(const coupled::Equations& equations, time::Method 
     // Steps that differ, so that no coefficient is what it is for equal ones.
     const time::Stage& at = scheme.begin(step * (1 + 0.5 * std::sin(k)));
     std::copy(scheme.prediction().begin(), scheme.prediction().end(), state.begin());
-    const auto report = newton.solve({at.time, at.coefficient, scheme.history()}, state, {1e-13, 20});
+    const auto report = newton.solve(mesh.stage(scheme, at.time), state, {1e-13, 20});
     if (!report.converged) {
       ADD_FAILURE() << "step " << k << ": " << report.failure;
       return stream;
     }
     stream.least_jacobian = std::min(stream.least_jacobian, equations.least_jacobian().value);
+    equations.follow(at.time, state);
     scheme.accept(state);
     for (std::size_t e = layout.velocity_begin(); e < layout.scalar_begin(); ++e)
       stream.worst = std::max(stream.worst, std::abs(scheme.value()[e] - uniform[e]) /

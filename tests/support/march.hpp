@@ -7,8 +7,7 @@
 #include <functional>
 #include <vector>
 
-#include "core/coupled/newton.hpp"
-#include "core/time/scheme.hpp"
+#include "core/coupled/simulation.hpp"
 
 namespace tunica::test_support {
 
@@ -17,16 +16,17 @@ namespace tunica::test_support {
 inline bool march(const coupled::Equations& equations, time::Scheme& scheme, const std::vector<double>& steps,
                   double newton_tolerance, const std::function<void()>& after = {}) {
   coupled::Newton newton(equations);
+  coupled::ExpectedMesh mesh(equations.layout());
   std::vector<double> state(equations.layout().size());
   for (const double step : steps) {
     const time::Stage& at = scheme.begin(step);
     std::copy(scheme.prediction().begin(), scheme.prediction().end(), state.begin());
-    const auto report =
-        newton.solve({at.time, at.coefficient, scheme.history()}, state, {newton_tolerance, 30});
+    const auto report = newton.solve(mesh.stage(scheme, at.time), state, {newton_tolerance, 30});
     if (!report.converged) {
       ADD_FAILURE() << "at " << at.time << " s: " << report.failure;
       return false;
     }
+    equations.follow(at.time, state);
     scheme.accept(state);
     if (after) after();
   }

@@ -40,11 +40,11 @@ Vector<double> motion(const Point& place, double time) {
 
 class SolidFreeStream : public testing::TestWithParam<std::tuple<test_support::SolidCase, int>> {};
 
-TEST_P(SolidFreeStream, IsKeptByAMovingMesh) {
-  const auto& [kind, method] = GetParam();
+void expect_kept(const test_support::SolidCase& kind, int method, bool lagged) {
   Problem problem;
   problem.mesh = open_vessel(kind);
   problem.discretisation.element = kind.element;
+  problem.discretisation.lagged_mesh = lagged;
   problem.blood = {1.06, 0.035};
   problem.displacement = motion;
   problem.velocity = [](const Point&, double) { return stream; };
@@ -67,12 +67,25 @@ TEST_P(SolidFreeStream, IsKeptByAMovingMesh) {
     if (layout.has_pressure(node)) state[layout.pressure(node)] = stream_pressure;
   }
   state[*layout.outlet_pressure] = stream_pressure;
-  const auto kept = test_support::keep_stream(assembler, test_support::time_methods[method], state, 19, 0.04);
-  RecordProperty("worst", testing::PrintToString(kept.worst));
+  // What is extrapolated over a step in which cells are compressed by half would turn some inside out.
+  const int steps = lagged ? 38 : 19;
+  const auto kept = test_support::keep_stream(assembler, test_support::time_methods[method], state, steps,
+                                              0.04 * 19 / steps);
+  testing::Test::RecordProperty("worst", testing::PrintToString(kept.worst));
   EXPECT_LT(kept.worst, 1e-12);
   // The motion was one that matters: a tenth of the speed of blood, cells compressed to nearly a half.
   EXPECT_GT(kept.greatest_mesh_speed, 1.9);
   EXPECT_LT(kept.least_jacobian, 0.55);
+}
+
+TEST_P(SolidFreeStream, IsKeptByAMovingMesh) {
+  const auto& [kind, method] = GetParam();
+  expect_kept(kind, method, false);
+}
+
+TEST_P(SolidFreeStream, IsKeptWhereTheMeshLags) {
+  const auto& [kind, method] = GetParam();
+  expect_kept(kind, method, true);
 }
 
 INSTANTIATE_TEST_SUITE_P(ElementsAndSchemes, SolidFreeStream,

@@ -192,6 +192,35 @@ Eigen::Matrix4d step_matrix(double frequency, double radius) {
   return matrix;
 }
 
+TEST(ExpectedValues, AreLinesThroughTheLastTwo) {
+  for (const Chosen& chosen : methods) {
+    SCOPED_TRACE(chosen.name);
+    Scheme scheme(chosen.method, chosen.radius);
+    // A line and a parabola, of which bdf2 has the rates without error.
+    const auto exact = [](double t) { return Vector{1 + 2 * t, t * t}; };
+    scheme.start(0, exact(0), {2, 0});
+    double before = 0, time = 0;
+    for (const double step : {0.1, 0.15, 0.08, 0.2}) {
+      const double at = scheme.begin(step).time;
+      Vector values(2), rates(1), all_rates(2);
+      scheme.expect(values, rates);
+      scheme.expect(values, all_rates);
+      EXPECT_NEAR(values[0], 1 + 2 * at, 1e-14);
+      EXPECT_NEAR(rates[0], 2, 1e-12);
+      EXPECT_EQ(rates[0], all_rates[0]);
+      if (time > 0 && chosen.method != Method::generalized_alpha) {
+        EXPECT_NEAR(values[1], time * time + (at - time) * (time + before), 1e-14);
+      }
+      if (before > 0.1 && chosen.method == Method::bdf2) {
+        EXPECT_NEAR(all_rates[1], 2 * at, 1e-12);
+      }
+      scheme.accept(exact(at));
+      before = time;
+      time = scheme.time();
+    }
+  }
+}
+
 }  // namespace
 
 // The tolerance 0.1 leaves room for higher terms at the coarse end and for the scatter of drawn steps.

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/coupled/tangent_stability.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tunica::coupled {
+
+TangentStability least_mode(StiffnessAndMass& pencil) {
+  TangentStability result;
+  result.negative = pencil.negative(0);
+  // Bracket of the least eigenvalue: from 0 outwards in powers of ten.
+  double low = 0, high = 0;
+  if (result.negative > 0) {
+    for (low = -1; pencil.negative(low) > 0; low *= 10) high = low;
+  } else {
+    for (high = 1; pencil.negative(high) == 0; high *= 10) low = high;
+  }
+  while (std::abs(high - low) > 0.01 * std::max(std::abs(low), std::abs(high))) {
+    const double middle = low * high > 0 ? std::copysign(std::sqrt(low * high), low) : 0.5 * (low + high);
+    (pencil.negative(middle) > 0 ? high : low) = middle;
+  }
+  result.least_eigenvalue = 0.5 * (low + high);
+  pencil.negative(low);
+  return result;
+}
+
+double wave_length(std::vector<std::pair<double, double>> line) {
+  std::sort(line.begin(), line.end());
+  line.erase(std::unique(line.begin(), line.end()), line.end());
+  // What has died away between ripples must not count with its noise.
+  double greatest = 0;
+  for (const auto& [z, u] : line) greatest = std::max(greatest, std::abs(u));
+  std::erase_if(line, [&](const auto& point) { return std::abs(point.second) < 0.02 * greatest; });
+  double first = 0, last = 0;
+  int changes = 0;
+  for (std::size_t k = 1; k < line.size(); ++k) {
+    if (line[k].second * line[k - 1].second > 0) continue;
+    const double z = 0.5 * (line[k].first + line[k - 1].first);
+    if (changes++ == 0) first = z;
+    last = z;
+  }
+  return changes > 1 ? 2 * (last - first) / (changes - 1) : 0.0;
+}
+
+void record_stability(const TangentStability& found, radial::TetherTraction tether, RunRecord& record) {
+  record.resolution["negative_pivots"] = found.negative;
+  record.resolution["least_eigenvalue"] = found.least_eigenvalue;
+  if (found.negative == 0) return;
+  const bool proven = tether != radial::TetherTraction::current;
+  record.findings.push_back(
+      fmt::format("the static state {} unstable: its stiffness on this mesh has {} negative direction{}, of "
+                  "which the fastest grows as exp(t/{:.2g} s){}; {}",
+                  proven ? "is" : "may be", found.negative, found.negative == 1 ? "" : "s",
+                  1 / std::sqrt(-found.least_eigenvalue),
+                  found.wave_length > 0 ? fmt::format(" as ripples of {:.3g} cm", found.wave_length) : "",
+                  tether == radial::TetherTraction::normal
+                      ? "a stiffer wall or tether would hold it"
+                      : "tether.traction = \"normal\" is stable for the paper's laws"));
+}
+
+}  // namespace tunica::coupled
