@@ -66,7 +66,10 @@ void apply_override(toml::table& root, const std::string& text, const std::strin
     throw InvalidInput(
         fmt::format("{} {}: write key=value, for example outlet.resistance=1e6", place, in_quotes(text)));
   if (!find_parameter(key) && !is_table_array(key)) {
-    const std::string hint = did_you_mean(nearest_key(key));
+    // The name of a table is not meant for a key of the same name in another.
+    const bool is_table = std::any_of(parameters().begin(), parameters().end(),
+                                      [&](const Parameter& p) { return p.key.starts_with(key + '.'); });
+    const std::string hint = is_table ? std::string{} : did_you_mean(nearest_key(key));
     throw InvalidInput(fmt::format(
         "{}: unknown key {}{}", place, one_line(key),
         hint.empty() ? "; name a key of a table, such as geometry.radius (docs/parameters.md)" : hint));
