@@ -9,6 +9,7 @@
 
 #include "axisym/gather.hpp"
 #include "core/coupled/openings.hpp"
+#include "core/error.hpp"
 
 namespace tunica::axisym {
 
@@ -226,6 +227,9 @@ void Assembler::follow(double time, std::span<double> y) const {
                                std::span<const BloodPoint>(table.points));
     follower_->extension.finish();
     follower_->factors.compute(follower_->extension.among());
+    if (follower_->factors.info() != Eigen::Success)
+      throw SolverFailure(
+          "the motion of the mesh in the blood has no factors; take solver.geometry = \"implicit\"");
   }
   std::vector<double> loads(layout_.followers().size(), 0.0);
   if (problem_.loads.mesh_force)

@@ -14,8 +14,9 @@ std::vector<std::string> remarks_on_unused_keys(const Scene& scene, const Setup&
                        "outlet.compliance", "solver.geometry"},
                       "time.mode is \"static\""});
   if (!setup.problem.mesh.has(Part::blood))
-    unused.push_back({{"blood.", "inlet.profile", "outlet.", "mesh.blood_cells", "mesh.motion"},
-                      "a wall under a given pressure is computed without its blood"});
+    unused.push_back(
+        {{"blood.", "inlet.profile", "outlet.", "mesh.blood_cells", "mesh.motion", "solver.geometry"},
+         "a wall under a given pressure is computed without its blood"});
   if (!setup.problem.mesh.has(Part::wall)) unused.push_back({{"solver.geometry"}, "no wall moves"});
   if (setup.inlet.is_pressure) unused.push_back({{"inlet.profile"}, "a pressure drives the flow"});
   if (scene.text("geometry.kind") == "mesh")

@@ -78,6 +78,7 @@ LeastMode Assembler::least_mode(double time, std::span<const double> y) const {
   if (has_blood()) throw std::logic_error("least_mode: for a wall alone");
   const LoadedStage at = loaded({time, 0, {}}, y);
   if (announcer_) announcer_->least_mode(at, y);
+  owner_of_factors_ = nullptr;
   return full3d::least_mode(share_, layout_, ranks_, at, y);
 }
 

@@ -91,6 +91,13 @@ class Full3dVessel final : public coupled::Vessel {
 
   void judge_static(std::span<const double> state, RunRecord& record) const override {
     if (assembler_.has_blood()) return;
+    const int rows = rows_of(setup_->problem, assembler_.layout());
+    const auto available = available_memory();
+    if (const double needed = estimated_memory("direct", rows); available && needed > *available) {
+      record.findings.push_back(fmt::format(
+          "stability was not checked: that takes factors, an estimated {:.3g} GiB", needed / (1 << 30)));
+      return;
+    }
     try {
       const LeastMode mode = assembler_.least_mode(0, state);
       TangentStability found = mode.stability;
@@ -122,8 +129,9 @@ class Full3dVessel final : public coupled::Vessel {
                          "outlet.compliance", "solver.geometry"},
                         "time.mode is \"static\""});
     if (!assembler_.has_blood())
-      unused.push_back({{"blood.", "inlet.profile", "outlet.", "mesh.blood_cells", "mesh.motion"},
-                        "a wall under a given pressure is computed without its blood"});
+      unused.push_back(
+          {{"blood.", "inlet.profile", "outlet.", "mesh.blood_cells", "mesh.motion", "solver.geometry"},
+           "a wall under a given pressure is computed without its blood"});
     if (setup_->inlet.is_pressure) unused.push_back({{"inlet.profile"}, "a pressure drives the flow"});
     if (setup_->axes)
       unused.push_back({{"geometry.thickness", "geometry.length"}, "geometry.kind is \"mesh\""});

@@ -48,8 +48,8 @@ void check_memory(const std::string& method, int unknowns, std::optional<double>
       "machine has {:.3g} GiB available; {}",
       unknowns, needed / gib, method, *available / gib,
       block_fits ? "write solver.method = \"block\", or ask for fewer cells (mesh.*_cells, "
-                   "accuracy.tolerance)"
-                 : "ask for fewer cells (mesh.*_cells, accuracy.tolerance)"));
+                   "accuracy.tolerance, or a coarser geometry.file)"
+                 : "ask for fewer cells (mesh.*_cells, accuracy.tolerance, or a coarser geometry.file)"));
 }
 
 }  // namespace tunica::full3d

@@ -2,8 +2,9 @@
 #include "full3d/mesh_follower.hpp"
 
 #include <algorithm>
-#include <stdexcept>
 #include <vector>
+
+#include "core/error.hpp"
 
 namespace tunica::full3d {
 
@@ -50,7 +51,9 @@ void MeshFollower::solve(std::span<double> right) {
   check(KSPSolve(solver_.get(), right_.get(), solution_.get()), "KSPSolve");
   KSPConvergedReason reason{};
   check(KSPGetConvergedReason(solver_.get(), &reason), "KSPGetConvergedReason");
-  if (reason <= 0) throw std::runtime_error("the motion of the mesh was not solved");
+  if (reason <= 0)
+    throw SolverFailure(
+        "the motion of the mesh in the blood was not solved; take solver.geometry = \"implicit\"");
   const PetscScalar* from = nullptr;
   check(VecGetArrayRead(solution_.get(), &from), "VecGetArrayRead");
   std::copy(from, from + right.size(), right.begin());

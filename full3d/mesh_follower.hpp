@@ -15,7 +15,7 @@ class MeshFollower {
  public:
   /// Of all cells. `direct`: by a factorisation (MUMPS), else by conjugate gradients with multigrid (hypre).
   MeshFollower(const Layout& layout, const CellWork& all_cells, bool direct);
-  /// Throws std::runtime_error when no solution was found.
+  /// Throws SolverFailure when no solution was found.
   void follow(double time, std::span<double> y);
 
  private:

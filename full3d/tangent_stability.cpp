@@ -57,7 +57,11 @@ class StiffnessAndMass final : public coupled::StiffnessAndMass {
     Mat factors = nullptr;
     check(PCFactorGetMatrix(pc_, &factors), "PCFactorGetMatrix");
     // The same on all ranks, as MUMPS tells all of them.
-    if (reason != PC_NOERROR) throw SolverFailure(coupled::vanishing_pivot);
+    if (reason == PC_FACTOR_NUMERIC_ZEROPIVOT || reason == PC_FACTOR_STRUCT_ZEROPIVOT)
+      throw SolverFailure(coupled::vanishing_pivot);
+    if (reason != PC_NOERROR)
+      throw SolverFailure(
+          "stability was not checked: its factors were not computed, for lack of memory most likely");
     PetscInt negative = 0;
     check(MatGetInertia(factors, &negative, nullptr, nullptr), "MatGetInertia");
     return static_cast<int>(negative);
