@@ -37,7 +37,8 @@ class Scene {
   const std::string& name() const { return name_; }
   /// Folder that relative file names in the scene start from.
   const std::filesystem::path& folder() const { return folder_; }
-  /// Things a user should know although the scene is valid: keys that the chosen law does not use.
+  /// Things a user should know although the scene is valid: keys that its choices do not use, numbers that
+  /// look like another unit's, loads that no artery lives with.
   const std::vector<std::string>& remarks() const { return remarks_; }
 
   /// All values by key, sorted, defaults included.
@@ -69,5 +70,10 @@ std::string describe(const Scene& scene);
 /// Converts "75 mmHg" to a number in `target_unit`. Throws InvalidInput when the text is no number
 /// with a unit or when its dimension is another one. `key` is for the message.
 double convert_quantity(std::string_view text, const std::string& target_unit, std::string_view key);
+
+/// The factor from a unit to `target`. Throws InvalidInput, beginning with `complaint` and ending with
+/// `remedy`, for what is no unit, holds a number, is not known or has another dimension.
+double unit_factor(const std::string& text, const std::string& target, const std::string& complaint,
+                   const std::string& remedy);
 
 }  // namespace tunica

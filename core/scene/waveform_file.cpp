@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <string>
@@ -35,14 +36,34 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(blank) - first + 1);
 }
 
+/// The cells of a line, as spreadsheets write them: between double quotes where they like.
 std::vector<std::string_view> cells_of(std::string_view line) {
   std::vector<std::string_view> cells;
-  for (std::size_t start = 0; start <= line.size();) {
-    const std::size_t comma = std::min(line.find(',', start), line.size());
-    cells.push_back(trimmed(line.substr(start, comma - start)));
-    start = comma + 1;
+  bool quoted = false;
+  std::size_t start = 0;
+  for (std::size_t i = 0; i <= line.size(); ++i) {
+    if (i < line.size() && line[i] == '"') quoted = !quoted;
+    if (i < line.size() && (quoted || line[i] != ',')) continue;
+    std::string_view cell = trimmed(line.substr(start, i - start));
+    if (cell.size() > 1 && cell.front() == '"' && cell.back() == '"')
+      cell = trimmed(cell.substr(1, cell.size() - 2));
+    cells.push_back(cell);
+    start = i + 1;
   }
   return cells;
+}
+
+std::string lower(std::string_view text) {
+  std::string result(text);
+  for (char& letter : result) letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+  return result;
+}
+
+/// What to do about a line that has not two cells: programs of many countries write "0,5;1,25".
+std::string separators_remedy(std::string_view line, std::size_t cells) {
+  if (line.find(';') != std::string_view::npos || line.find('\t') != std::string_view::npos)
+    return "; columns are told apart by commas, not by semicolons or tabs, and numbers have decimal points";
+  return cells == 4 ? "; write numbers with decimal points, a comma tells columns apart" : "";
 }
 
 class WaveformReader {
@@ -52,20 +73,23 @@ class WaveformReader {
         text_(load_text(file, "waveform", ".csv", largest_waveform)) {}
 
   WaveformFile read() {
+    if (text_.starts_with("\xff\xfe") || text_.starts_with("\xfe\xff"))
+      refuse("is UTF-16 text; save it as UTF-8, a spreadsheet's plain CSV");
     if (text_.find('\0') != std::string::npos) refuse("is a binary file; write CSV text");
     std::string_view rest = text_;
     constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
     if (rest.starts_with(byte_order_mark)) rest.remove_prefix(byte_order_mark.size());
     while (!rest.empty()) {
-      const std::size_t end = std::min(rest.find('\n'), rest.size());
+      const std::size_t end = std::min(rest.find_first_of("\r\n"), rest.size());
       const std::string_view line = trimmed(rest.substr(0, end));
-      rest.remove_prefix(std::min(end + 1, rest.size()));
+      const bool two_letters = rest.substr(end).starts_with("\r\n");
+      rest.remove_prefix(std::min(end + (two_letters ? 2 : 1), rest.size()));
       ++line_;
       if (line.empty() || line.front() == '#') continue;
       if (time_.scale == 0)
-        header(cells_of(line));
+        header(line, cells_of(line));
       else
-        row(cells_of(line));
+        row(line, cells_of(line));
     }
     if (time_.scale == 0) refuse(fmt::format("has no header; {}", columns_remedy));
     check_points();
@@ -81,22 +105,23 @@ class WaveformReader {
     const Parameter* bounds = nullptr;
   };
 
-  void header(const std::vector<std::string_view>& cells) {
+  void header(std::string_view line, const std::vector<std::string_view>& cells) {
     if (cells.size() != 2)
-      refuse_line(fmt::format("the header has {} of two columns; {}", cells.size(), columns_remedy));
+      refuse_line(fmt::format("the header has {} of two columns; {}{}", cells.size(), columns_remedy,
+                              separators_remedy(line, 0)));
     for (std::size_t i = 0; i < cells.size(); ++i) {
       const std::size_t open = cells[i].find('[');
-      const std::string_view name = trimmed(cells[i].substr(0, open));
+      const std::string name = lower(trimmed(cells[i].substr(0, open)));
       if (open == std::string_view::npos || cells[i].back() != ']')
         refuse_line(
             fmt::format("the column {} has no unit in brackets; {}", in_quotes(cells[i]), columns_remedy));
       const std::string unit(trimmed(cells[i].substr(open + 1, cells[i].size() - open - 2)));
       if (name == "time")
-        time_ = {i, scale(unit, "s", name), std::string(name), find_parameter("inlet.period")};
+        time_ = {i, scale(unit, "s", name), name, find_parameter("inlet.period")};
       else if (name == "flow")
-        value_ = {i, scale(unit, "cm3/s", name), std::string(name), find_parameter("inlet.flow")};
+        value_ = {i, scale(unit, "cm3/s", name), name, find_parameter("inlet.flow")};
       else if (name == "pressure")
-        value_ = {i, scale(unit, "dyn/cm2", name), std::string(name), find_parameter("inlet.pressure")};
+        value_ = {i, scale(unit, "dyn/cm2", name), name, find_parameter("inlet.pressure")};
       else
         refuse_line(fmt::format("unknown column {}; {}", in_quotes(cells[i]), columns_remedy));
     }
@@ -105,21 +130,19 @@ class WaveformReader {
     result_.is_pressure = value_.name == "pressure";
   }
 
-  double scale(const std::string& unit, const std::string& target, std::string_view name) const {
+  double scale(const std::string& unit, const std::string& target, const std::string& name) const {
     try {
-      return convert_quantity("1 " + unit, target, name);
-    } catch (const InvalidInput&) {
-      refuse_line(fmt::format(
-          "{}[{}] has an unknown unit or one of another dimension; write {}[{}] or a unit of that "
-          "dimension",
-          name, one_line(unit), name, target));
+      return unit_factor(unit, target, fmt::format("{}[{}]", name, one_line(unit)),
+                         fmt::format("write {}[{}] or a unit of that dimension", name, target));
+    } catch (const InvalidInput& error) {
+      refuse_line(error.what());
     }
   }
 
-  void row(const std::vector<std::string_view>& cells) {
+  void row(std::string_view line, const std::vector<std::string_view>& cells) {
     if (cells.size() != 2)
-      refuse_line(
-          fmt::format("the row has {} of two cells; write time and value, apart by a comma", cells.size()));
+      refuse_line(fmt::format("the row has {} of two cells; write time and value, apart by a comma{}",
+                              cells.size(), separators_remedy(line, cells.size())));
     result_.time.push_back(number(cells[time_.index], time_));
     result_.value.push_back(number(cells[value_.index], value_));
     if (!value_.bounds->bounds.contains(result_.value.back()))
@@ -160,8 +183,12 @@ class WaveformReader {
     std::vector<double> sorted = intervals;
     const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
     std::nth_element(sorted.begin(), middle, sorted.end());
+    const auto [low, high] = std::minmax_element(result_.value.begin(), result_.value.end());
+    const double even = closing_error * (*high - *low);
     for (std::size_t i = 0; i < intervals.size(); ++i) {
       if (intervals[i] <= widest_interval * *middle) continue;
+      // Published inflows give a diastole without flow by its two ends.
+      if (std::abs(result_.value[i + 1] - result_.value[i]) <= even) continue;
       line_ = lines_[i + 1];
       refuse_line(
           fmt::format("a gap in time from {:g} s to {:g} s, {:.0f} times the usual interval; give the "
@@ -171,10 +198,9 @@ class WaveformReader {
     if (!time_.bounds->bounds.contains(time.back()))
       refuse(
           fmt::format("has a period of {:g} s; allowed is {} s", time.back(), time_.bounds->bounds.text()));
-    const auto [low, high] = std::minmax_element(result_.value.begin(), result_.value.end());
     const double first = result_.value.front();
     double& last = result_.value.back();
-    if (std::abs(last - first) > closing_error * (*high - *low))
+    if (std::abs(last - first) > even)
       refuse(
           fmt::format("is not periodic: {} is {:g} {} at first and {:g} at last; repeat the first value at "
                       "the end of the period",

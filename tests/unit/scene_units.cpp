@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "core/error.hpp"
 #include "core/scene/message.hpp"
 #include "core/scene/scene.hpp"
@@ -45,6 +47,79 @@ TEST(Units, RefuseWhatIsNoLinearConversion) {
   EXPECT_THROW(converted("1 cm from 3", "cm"), InvalidInput);
   EXPECT_THROW(converted("1 seconds since 2000-01-01", "s"), InvalidInput);
   EXPECT_THROW(converted("1 lg(re 1 Pa)", "dyn/cm2"), InvalidInput);
+}
+
+TEST(Units, KnowWhatClinicsAndLaboratoriesWrite) {
+  constexpr double water = 98.0665;  // dyn/cm2 of a millimetre: 1 g/cm3 times standard gravity
+  EXPECT_NEAR(converted("1 mmH2O", "dyn/cm2"), water, 1e-9);
+  EXPECT_NEAR(converted("1 cmH2O", "dyn/cm2"), 10 * water, 1e-9);
+  EXPECT_NEAR(converted("1 inH2O", "dyn/cm2"), 25.4 * water, 1e-9);
+  EXPECT_NEAR(converted("1 torr", "dyn/cm2"), 1333.22, 0.01);
+  EXPECT_NEAR(converted("75 mm Hg", "dyn/cm2"), 75 * 1333.22387, 0.01);
+  EXPECT_DOUBLE_EQ(converted("1 bar", "dyn/cm2"), 1e6);
+  EXPECT_DOUBLE_EQ(converted("2 Ba", "dyn/cm2"), 2);
+  for (const char* viscosity :
+       {"3.5 mPa s", "3.5 mPa.s", "3.5 mPa*s", "3.5 mPas", "0.0035 Pa.s", "0.0035 Pa s", "0.035 P",
+        "0.0035 kg/(m s)", "0.0035 kg m-1 s^-1", "0.0035 kg m**-1 s**-1", "0.0035 kg·m⁻¹·s⁻¹"})
+    EXPECT_NEAR(converted(viscosity, "g/cm/s"), 0.035, 1e-15) << viscosity;
+  for (const char* flow : {"0.6 l/min", "0.6 L/min", "600 mL/min", "10 ml per s", "10 cc/s", "10 cm^3 s-1"})
+    EXPECT_NEAR(converted(flow, "cm3/s"), 10, 1e-13) << flow;
+  for (const char* resistance : {"1e6 dyn s/cm5", "1e6 dyn.s.cm-5", "1e6 dyn*s/cm^5", "1e6 dyn·s/cm⁵",
+                                 "1e6 dyn s cm⁻⁵", "1e6 g/(cm4 s)", "1e11 Pa s/m3"})
+    EXPECT_NEAR(converted(resistance, "dyn s/cm5"), 1e6, 1e-7) << resistance;
+  EXPECT_DOUBLE_EQ(converted("1 PRU", "dyn s/cm5"), 1333.22387);
+  EXPECT_NEAR(converted("1 WU", "dyn s/cm5"), 0.06 * 1333.22387, 1e-11);
+}
+
+// UDUNITS takes a number behind a unit for a factor: "100 mmHg -10" would be -1000 mmHg.
+TEST(Units, HoldNoNumbers) {
+  const std::pair<const char*, const char*> quantities[] = {{"100 mmHg -10", "dyn/cm2"},
+                                                            {"1e7 dyn/cm3.5", "dyn/cm3"},
+                                                            {"100 mmHg 3", "dyn/cm2"},
+                                                            {"100 mmHg3.", "dyn/cm2"},
+                                                            {"1 cm3/s.5", "cm3/s"},
+                                                            {"1 cm3/s 60", "cm3/s"},
+                                                            {"1 cm3/60 s", "cm3/s"},
+                                                            {"100 mmHg/10", "dyn/cm2"},
+                                                            {"100 mmHg*10", "dyn/cm2"},
+                                                            {"100 mmHg (10)", "dyn/cm2"},
+                                                            {"3 s 2", "s"},
+                                                            {"3 s - 2", "s"},
+                                                            {"3 s.1e3", "s"},
+                                                            {"100 mmHg @ 0", "dyn/cm2"},
+                                                            {"2 (3 s)", "s"},
+                                                            {"1 (cm s) 2/cm s", "s"},
+                                                            {"100 mmHg²3", "dyn/cm2"},
+                                                            {"1 cm³.5", "cm3"}};
+  for (const auto& [text, unit] : quantities) EXPECT_THROW(converted(text, unit), InvalidInput) << text;
+  // Nor by name, nor by an angle.
+  for (const char* text :
+       {"100 ppm mmHg", "100 count mmHg", "100 mmHg.percent", "100 mmHg rad", "100 deg mmHg"})
+    EXPECT_THROW(converted(text, "dyn/cm2"), InvalidInput) << text;
+  try {
+    convert_quantity("100 mmHg -10", "dyn/cm2", "outlet.pressure");
+    FAIL() << "a unit with a number was taken";
+  } catch (const InvalidInput& error) {
+    EXPECT_STREQ(
+        error.what(),
+        "outlet.pressure = \"100 mmHg -10\": \"mmHg -10\" is not a unit alone: it holds a number, "
+        "which would multiply; write the number alone (in dyn/cm2) or with a unit of that dimension");
+  }
+}
+
+TEST(Units, SuggestTheUnitMeant) {
+  const auto message = [](const char* text, const char* unit) -> std::string {
+    try {
+      converted(text, unit);
+      return {};
+    } catch (const InvalidInput& error) {
+      return error.what();
+    }
+  };
+  EXPECT_NE(message("100 mmHG", "dyn/cm2").find("did you mean \"mmHg\"?"), std::string::npos);
+  EXPECT_NE(message("13 KPA", "dyn/cm2").find("did you mean \"kPa\"?"), std::string::npos);
+  EXPECT_NE(message("1 CM", "cm").find("did you mean \"cm\"?"), std::string::npos);
+  EXPECT_EQ(message("3 furlongz", "cm").find("did you mean"), std::string::npos);
 }
 
 TEST(Units, NameTheKeyTheTextAndTheUnitWanted) {
