@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/inlet.hpp"
 
-#include <gsl/gsl_interp.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 #include <numeric>
 
+#include "core/periodic_curve.hpp"
 #include "core/scene/waveform_file.hpp"
 
 namespace tunica {
@@ -56,27 +55,14 @@ class Pulse final : public Waveform {
   double duration_, period_;
 };
 
-/// Periodic cubic spline (GSL) through one period of samples.
-class PeriodicSpline final : public Waveform {
+/// A curve through one period of samples.
+class Sampled final : public Waveform {
  public:
-  explicit PeriodicSpline(scene::WaveformFile file)
-      : time_(std::move(file.time)),
-        value_(std::move(file.value)),
-        spline_(gsl_interp_alloc(gsl_interp_cspline_periodic, time_.size()), &gsl_interp_free) {
-    value_.back() = value_.front();
-    gsl_interp_init(spline_.get(), time_.data(), value_.data(), time_.size());
-  }
-
-  double at(double time) const override {
-    const double period = time_.back() - time_.front();
-    double within = std::fmod(time - time_.front(), period);
-    if (within < 0) within += period;
-    return gsl_interp_eval(spline_.get(), time_.data(), value_.data(), time_.front() + within, nullptr);
-  }
+  explicit Sampled(scene::WaveformFile file) : curve_(std::move(file.time), std::move(file.value)) {}
+  double at(double time) const override { return curve_.at(time); }
 
  private:
-  std::vector<double> time_, value_;
-  std::unique_ptr<gsl_interp, decltype(&gsl_interp_free)> spline_;
+  PeriodicCurve curve_;
 };
 
 }  // namespace
@@ -105,15 +91,25 @@ double Inlet::greatest_shape() const {
   return greatest;
 }
 
+double Inlet::mean_shape() const {
+  const std::vector<double> values = samples();
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
 double Inlet::time_of_mean() const {
-  constexpr int samples = 256;
-  std::vector<double> values;
-  for (int k = 0; k < samples; ++k) values.push_back(shape->at(period * k / samples));
-  const double mean = std::accumulate(values.begin(), values.end(), 0.0) / samples;
+  const std::vector<double> values = samples();
+  const double mean = mean_shape();
   const auto nearest = std::min_element(values.begin(), values.end(), [&](double a, double b) {
     return std::abs(a - mean) < std::abs(b - mean);
   });
-  return period * static_cast<double>(nearest - values.begin()) / samples;
+  return period * static_cast<double>(nearest - values.begin()) / static_cast<double>(values.size());
+}
+
+std::vector<double> Inlet::samples() const {
+  constexpr int count = 256;
+  std::vector<double> values;
+  for (int k = 0; k < count; ++k) values.push_back(shape->at(period * k / count));
+  return values;
 }
 
 Inlet inlet_from_scene(const Scene& scene) {
@@ -138,7 +134,7 @@ Inlet inlet_from_scene(const Scene& scene) {
     scene::WaveformFile file = scene::read_waveform(scene.folder() / waveform);
     inlet.is_pressure = file.is_pressure;
     inlet.period = file.period;
-    inlet.shape = std::make_unique<PeriodicSpline>(std::move(file));
+    inlet.shape = std::make_unique<Sampled>(std::move(file));
   }
   if (scene.text("time.start") == "rest") inlet.ramp = scene.number("time.ramp");
   return inlet;

@@ -33,8 +33,14 @@ struct Inlet {
   std::vector<double> jumps(double end) const;
   /// Largest magnitude of the shape within a period, ramp aside, to within a few per cent.
   double greatest_shape() const;
+  /// Mean of the shape over a period, ramp aside: of a trigonometric one exact.
+  double mean_shape() const;
   /// A time at which the shape has about its mean over a period, ramp aside.
   double time_of_mean() const;
+
+ private:
+  /// The shape at equal steps of a period.
+  std::vector<double> samples() const;
 };
 
 /// Throws InvalidInput when the scene's CSV file cannot be used.
