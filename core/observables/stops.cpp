@@ -26,11 +26,16 @@ std::vector<Stop> stops(const Scene& scene, double period) {
   for (const double time : regular_times(scene.number("output.interval"), end))
     all.push_back({.time = time, .is_row = true});
   const double field_interval = scene.number("output.field_interval");
-  if (field_interval > 0)
-    for (const double time : regular_times(field_interval, end))
-      all.push_back({.time = time, .is_field = true});
-  for (const double within : scene.numbers("output.profile_times"))
-    all.push_back({.time = (beats - 1) * period + within, .is_profile = true});
+  auto pictures = field_interval > 0 ? regular_times(field_interval, end) : std::vector<double>{};
+  for (const double time : pictures) all.push_back({.time = time, .is_field = true});
+  for (const double within : scene.numbers("output.profile_times")) {
+    const double time = (beats - 1) * period + within;
+    const bool lacks_picture =
+        field_interval > 0 && std::none_of(pictures.begin(), pictures.end(),
+                                           [&](double other) { return std::abs(other - time) < 1e-9 * end; });
+    if (lacks_picture) pictures.push_back(time);
+    all.push_back({.time = time, .is_profile = true, .is_field = lacks_picture});
+  }
   std::stable_sort(all.begin(), all.end(), [](const Stop& a, const Stop& b) { return a.time < b.time; });
   return all;
 }

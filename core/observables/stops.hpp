@@ -17,7 +17,8 @@ struct Stop {
 };
 
 /// The stops of a scene with beats of `period` seconds, in order: rows every output.interval and fields
-/// every output.field_interval, both from 0 and at the end too, and output.profile_times in the last beat.
+/// every output.field_interval, both from 0 and at the end too, and output.profile_times in the last beat, at
+/// which there are profiles and, unless output.field_interval is 0, fields as well.
 std::vector<Stop> stops(const Scene& scene, double period);
 
 }  // namespace tunica::observables

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "core/observables/field_series.hpp"
+#include "core/observables/xdmf_units.hpp"
 
 namespace tunica::observables {
 
@@ -106,12 +107,10 @@ void append_item(std::string& text, const std::vector<Number>& values, std::size
 }
 
 template <class Number>
-void append_attribute(std::string& text, std::string_view name, std::string_view unit,
-                      std::string_view center, const std::vector<Number>& values, std::size_t components) {
-  fmt::format_to(std::back_inserter(text),
-                 "<Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"{}\">"
-                 "<Information Name=\"unit\" Value=\"{}\"/>",
-                 name, components == 3 ? "Vector" : "Scalar", center, unit);
+void append_attribute(std::string& text, std::string_view name, std::string_view center,
+                      const std::vector<Number>& values, std::size_t components) {
+  fmt::format_to(std::back_inserter(text), "<Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"{}\">", name,
+                 components == 3 ? "Vector" : "Scalar", center);
   append_item(text, values, components);
   text += "</Attribute>\n";
 }
@@ -128,8 +127,11 @@ void append_mesh(std::string& text, const FieldSeries& s) {
     for (const double coordinate : point) coordinates.push_back(static_cast<float>(coordinate));
   append_item(text, coordinates, 3);
   text += "</Geometry>\n";
-  for (const CellField& field : s.cell_fields)
-    append_attribute(text, field.name, field.unit, "Cell", field.values, 1);
+  for (const CellField& field : s.cell_fields) append_attribute(text, field.name, "Cell", field.values, 1);
+}
+
+void append_information(std::string& text, std::string_view name, std::string_view value) {
+  fmt::format_to(std::back_inserter(text), "<Information Name=\"{}\" Value=\"{}\"/>\n", name, value);
 }
 
 }  // namespace
@@ -158,12 +160,17 @@ std::string to_xdmf(const FieldSeries& series) {
 
   fmt::format_to(std::back_inserter(text),
                  "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-                 "<Xdmf Version=\"3.0\" xmlns:xi=\"http://www.w3.org/2001/XInclude\">\n<Domain>\n"
-                 "<Grid Name=\"{}\" GridType=\"Collection\" CollectionType=\"Temporal\">\n",
-                 series.name);
+                 "<Xdmf Version=\"3.0\" xmlns:xi=\"http://www.w3.org/2001/XInclude\">\n<Domain>\n");
   if (series.mesh.mirrored[0] || series.mesh.mirrored[1])
-    fmt::format_to(std::back_inserter(text), "<Information Name=\"mirrored\" Value=\"{}{}\"/>\n",
-                   series.mesh.mirrored[0] ? "x" : "", series.mesh.mirrored[1] ? "y" : "");
+    append_information(
+        text, "mirrored",
+        fmt::format("{}{}", series.mesh.mirrored[0] ? "x" : "", series.mesh.mirrored[1] ? "y" : ""));
+  for (const CellField& field : series.cell_fields)
+    append_information(text, fmt::format("{}{}", xdmf_unit_of, field.name), field.unit);
+  for (const PointField& field : series.point_fields)
+    append_information(text, fmt::format("{}{}", xdmf_unit_of, field.name), field.unit);
+  fmt::format_to(std::back_inserter(text),
+                 "<Grid Name=\"{}\" GridType=\"Collection\" CollectionType=\"Temporal\">\n", series.name);
   for (const FieldSeries::Frame& frame : series.frames) {
     fmt::format_to(std::back_inserter(text), "<Grid Name=\"{}\" GridType=\"Uniform\">\n<Time Value=\"",
                    series.name);
@@ -177,7 +184,7 @@ std::string to_xdmf(const FieldSeries& series) {
           "*[self::Topology or self::Geometry or @Center='Cell'])\"/>\n";
     for (std::size_t f = 0; f < series.point_fields.size(); ++f) {
       const PointField& field = series.point_fields[f];
-      append_attribute(text, field.name, field.unit, "Node", frame.values[f], field.components);
+      append_attribute(text, field.name, "Node", frame.values[f], field.components);
     }
     text += "</Grid>\n";
   }

@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <charconv>
+#include <functional>
+#include <map>
 #include <stdexcept>
 #include <string_view>
 
 #include "core/observables/field_series.hpp"
+#include "core/observables/xdmf_units.hpp"
 
 namespace tunica::observables {
 
@@ -107,23 +110,27 @@ void read_points(Scanner& scanner, FieldMesh& mesh) {
     mesh.points.push_back({coordinates[k], coordinates[k + 1], coordinates[k + 2]});
 }
 
-std::string unit_of(Scanner& scanner) {
-  const Tag tag = scanner.next();
-  if (!is(tag, "Information") || attribute(tag, "Name") != "unit") refuse("a field without unit");
-  return std::string(attribute(tag, "Value"));
+/// Units by the fields' names.
+using Units = std::map<std::string, std::string, std::less<>>;
+
+std::string unit_of(const Units& units, std::string_view field) {
+  const auto unit = units.find(field);
+  if (unit == units.end()) refuse(fmt::format("{} without unit", field));
+  return unit->second;
 }
 
-void read_cell_field(Scanner& scanner, Tag tag, FieldSeries& series) {
-  CellField field{std::string(attribute(tag, "Name")), unit_of(scanner), scanner.item<int>()};
+void read_cell_field(Scanner& scanner, Tag tag, const Units& units, FieldSeries& series) {
+  const std::string name(attribute(tag, "Name"));
+  CellField field{name, unit_of(units, name), scanner.item<int>()};
   if (field.values.size() * corners(series.mesh.shape) != series.mesh.cells.size())
     refuse(fmt::format("{} has not one value per cell", field.name));
   series.cell_fields.push_back(std::move(field));
 }
 
-void read_point_field(Scanner& scanner, Tag tag, FieldSeries& series) {
+void read_point_field(Scanner& scanner, Tag tag, const Units& units, FieldSeries& series) {
   if (series.frames.empty()) refuse("a field without time");
-  const PointField field{std::string(attribute(tag, "Name")), unit_of(scanner),
-                         attribute(tag, "AttributeType") == "Vector" ? 3U : 1U};
+  const std::string name(attribute(tag, "Name"));
+  const PointField field{name, unit_of(units, name), attribute(tag, "AttributeType") == "Vector" ? 3U : 1U};
   auto& frame = series.frames.back();
   const std::size_t index = frame.values.size();
   if (series.frames.size() == 1) series.point_fields.push_back(field);
@@ -150,6 +157,7 @@ void expect_whole(const FieldSeries& series) {
 FieldSeries from_xdmf(std::string_view text) {
   FieldSeries series;
   Scanner scanner(text);
+  Units units;
   Tag last;
   for (Tag tag = scanner.next(); !tag.empty(); last = tag, tag = scanner.next()) {
     if (is(tag, "Grid") && attribute(tag, "GridType") == "Collection") {
@@ -157,6 +165,8 @@ FieldSeries from_xdmf(std::string_view text) {
     } else if (is(tag, "Information") && attribute(tag, "Name") == "mirrored") {
       const std::string_view planes = attribute(tag, "Value");
       series.mesh.mirrored = {planes.find('x') != Tag::npos, planes.find('y') != Tag::npos};
+    } else if (is(tag, "Information") && attribute(tag, "Name").starts_with(xdmf_unit_of)) {
+      units.emplace(attribute(tag, "Name").substr(xdmf_unit_of.size()), attribute(tag, "Value"));
     } else if (is(tag, "Time")) {
       series.frames.push_back({number<double>(attribute(tag, "Value")), {}});
     } else if (is(tag, "Topology")) {
@@ -165,9 +175,9 @@ FieldSeries from_xdmf(std::string_view text) {
     } else if (is(tag, "Geometry")) {
       read_points(scanner, series.mesh);
     } else if (is(tag, "Attribute") && attribute(tag, "Center") == "Cell") {
-      read_cell_field(scanner, tag, series);
+      read_cell_field(scanner, tag, units, series);
     } else if (is(tag, "Attribute")) {
-      read_point_field(scanner, tag, series);
+      read_point_field(scanner, tag, units, series);
     }
   }
   if (last != "/Xdmf") refuse("the end is missing");

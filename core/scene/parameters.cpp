@@ -256,7 +256,7 @@ std::vector<Parameter> declare() {
                  "scaled by period/0.8 s",
                  {0.0, infinity, false, true},
                  {},
-                 "Times within the last beat at which profiles through the wall are written."});
+                 "Times within the last beat of profiles through the wall, and of pictures too."});
   all.push_back(number("output.field_interval", "s", 0.05, from_zero(1000),
                        "Time between the pictures in fields/, which ParaView shows as an animation. 0 leaves "
                        "fields/ out."));

@@ -48,16 +48,20 @@ std::vector<double> times_of(const FieldSeries& series) {
 
 }  // namespace
 
-TEST(LumpedFields, AreAtMultiplesOfTheIntervalAndAtTheEnd) {
+TEST(LumpedFields, AreAtMultiplesOfTheIntervalAtTheEndAndAtTheTimesOfProfiles) {
   const auto coarse = run_lumped({"output.field_interval=0.3"}).fields;
   ASSERT_EQ(coarse.size(), 1U);
   EXPECT_EQ(coarse[0].name, "wall");
-  const std::vector<double> expected{0, 0.3, 0.6, 0.9, 1.2, 1.5, 1.6};
+  const std::vector<double> expected{0, 0.3, 0.6, 0.9, 1.0112, 1.2, 1.4, 1.5, 1.6};
   const std::vector<double> times = times_of(coarse[0]);
   ASSERT_EQ(times.size(), expected.size());
   for (std::size_t k = 0; k < times.size(); ++k) EXPECT_NEAR(times[k], expected[k], 1e-12);
-  EXPECT_EQ(times_of(run_lumped({"output.field_interval=5"}).fields[0]), (std::vector<double>{0, 1.6}));
-  EXPECT_EQ(run_lumped(std::vector<std::string>{}).fields[0].frames.size(), 33U);
+  EXPECT_EQ(times_of(run_lumped({"output.field_interval=5"}).fields[0]),
+            (std::vector<double>{0, 0.8 + 0.2112, 0.8 + 0.6, 1.6}));
+  // Of the two times of profiles, 0.6 s of the beat is a multiple of 0.05 s anyway.
+  EXPECT_EQ(run_lumped(std::vector<std::string>{}).fields[0].frames.size(), 34U);
+  EXPECT_EQ(times_of(run_lumped({"output.field_interval=0.8", "output.profile_times=0.3,0.3"}).fields[0]),
+            (std::vector<double>{0, 0.8, 0.8 + 0.3, 1.6}));
   EXPECT_TRUE(run_lumped({"output.field_interval=0"}).fields.empty());
 }
 
@@ -80,7 +84,8 @@ TEST(LumpedFields, FibreFieldsAreThereWithFibresOnly) {
 }
 
 TEST(LumpedFields, AgreeWithTheObservablesAtP1ToP4) {
-  const Result result = run_lumped(std::vector<std::string>{});
+  // All pictures at the time of a row, that of the profile too.
+  const Result result = run_lumped({"output.profile_times=0.211"});
   const FieldSeries& series = result.fields[0];
   for (std::size_t frame = 0; frame < series.frames.size(); ++frame) {
     const std::size_t row = row_at(result.observables, series.frames[frame].time);
@@ -114,7 +119,8 @@ TEST(LumpedFields, AgreeWithTheObservablesAtP1ToP4) {
 // At the lumen the radial stress is the pressure, outside it is the tether's.
 TEST(LumpedFields, RadialStressIsInEquilibriumWithWhatIsOutside) {
   for (const char* incompressible : {"wall.incompressible=false", "wall.incompressible=true"}) {
-    const Result result = run_lumped({incompressible, "output.field_interval=0.2"});
+    const Result result =
+        run_lumped({incompressible, "output.field_interval=0.2", "output.profile_times=0.211"});
     const FieldSeries& series = result.fields[0];
     for (std::size_t frame = 1; frame < series.frames.size(); ++frame) {
       const std::size_t row = row_at(result.observables, series.frames[frame].time);

@@ -36,6 +36,9 @@ FieldSeries square() {
 constexpr const char* square_text = R"XML(<?xml version="1.0" encoding="UTF-8"?>
 <Xdmf Version="3.0" xmlns:xi="http://www.w3.org/2001/XInclude">
 <Domain>
+<Information Name="unit of layer" Value="1"/>
+<Information Name="unit of displacement" Value="cm"/>
+<Information Name="unit of stretch" Value="1"/>
 <Grid Name="square" GridType="Collection" CollectionType="Temporal">
 <Grid Name="square" GridType="Uniform">
 <Time Value="0"/>
@@ -51,31 +54,31 @@ constexpr const char* square_text = R"XML(<?xml version="1.0" encoding="UTF-8"?>
 0 1 0.5
 </DataItem>
 </Geometry>
-<Attribute Name="layer" AttributeType="Scalar" Center="Cell"><Information Name="unit" Value="1"/><DataItem Format="XML" NumberType="Int" Precision="4" Dimensions="2">
+<Attribute Name="layer" AttributeType="Scalar" Center="Cell"><DataItem Format="XML" NumberType="Int" Precision="4" Dimensions="2">
 0 1 </DataItem>
 </Attribute>
-<Attribute Name="displacement" AttributeType="Vector" Center="Node"><Information Name="unit" Value="cm"/><DataItem Format="XML" NumberType="Float" Precision="4" Dimensions="4 3">
+<Attribute Name="displacement" AttributeType="Vector" Center="Node"><DataItem Format="XML" NumberType="Float" Precision="4" Dimensions="4 3">
 0 0 0
 0 0 0
 0 0 0
 0 0 0
 </DataItem>
 </Attribute>
-<Attribute Name="stretch" AttributeType="Scalar" Center="Node"><Information Name="unit" Value="1"/><DataItem Format="XML" NumberType="Float" Precision="4" Dimensions="4">
+<Attribute Name="stretch" AttributeType="Scalar" Center="Node"><DataItem Format="XML" NumberType="Float" Precision="4" Dimensions="4">
 1 1 1 1 </DataItem>
 </Attribute>
 </Grid>
 <Grid Name="square" GridType="Uniform">
 <Time Value="0.05"/>
 <xi:include xpointer="xpointer(/Xdmf/Domain/Grid/Grid[1]/*[self::Topology or self::Geometry or @Center='Cell'])"/>
-<Attribute Name="displacement" AttributeType="Vector" Center="Node"><Information Name="unit" Value="cm"/><DataItem Format="XML" NumberType="Float" Precision="4" Dimensions="4 3">
+<Attribute Name="displacement" AttributeType="Vector" Center="Node"><DataItem Format="XML" NumberType="Float" Precision="4" Dimensions="4 3">
 0 0 0
 0.1 0 0
 0.1 -0.1 0
 0 1e-09 0
 </DataItem>
 </Attribute>
-<Attribute Name="stretch" AttributeType="Scalar" Center="Node"><Information Name="unit" Value="1"/><DataItem Format="XML" NumberType="Float" Precision="4" Dimensions="4">
+<Attribute Name="stretch" AttributeType="Scalar" Center="Node"><DataItem Format="XML" NumberType="Float" Precision="4" Dimensions="4">
 1.5 1.5 nan 1234567 </DataItem>
 </Attribute>
 </Grid>
@@ -138,11 +141,17 @@ TEST(Xdmf, HalfAFileOrAnotherFormIsNotRead) {
   for (std::size_t length = 0; length + 1 < text.size(); length += 7)
     EXPECT_THROW(from_xdmf(text.substr(0, length)), std::invalid_argument) << length;
   const std::pair<const char*, const char*> mistakes[] = {
-      {"0 1 2\n", "0 1 4\n"},        {"0 1 2\n", "0 1 -1\n"},
-      {"0 1 2\n", "0 1\n"},          {"0 1 2\n", "0 1 x\n"},
-      {"\"Triangle\"", "\"Wedge\""}, {"\"XML\"", "\"HDF\""},
-      {"<Time Value=\"0\"/>", ""},   {"Dimensions=\"2 3\"", "Dimensions=\"99999999999 3\""},
-      {"\"stretch\"", "\"other\""},  {"<Time Value=\"0\"/>", "<Time Value=\"now\"/>"}};
+      {"0 1 2\n", "0 1 4\n"},
+      {"0 1 2\n", "0 1 -1\n"},
+      {"0 1 2\n", "0 1\n"},
+      {"0 1 2\n", "0 1 x\n"},
+      {"\"Triangle\"", "\"Wedge\""},
+      {"\"XML\"", "\"HDF\""},
+      {"<Time Value=\"0\"/>", ""},
+      {"Dimensions=\"2 3\"", "Dimensions=\"99999999999 3\""},
+      {"\"stretch\"", "\"other\""},
+      {"<Time Value=\"0\"/>", "<Time Value=\"now\"/>"},
+      {"unit of stretch", "unit of strain"}};
   for (const auto& [right, wrong] : mistakes) {
     std::string broken = text;
     broken.replace(broken.find(right), std::string(right).size(), wrong);
