@@ -151,6 +151,8 @@ std::vector<std::pair<double, double>> recruited_intervals(const Result& result,
 double recruited_share(const Result& result, int point, const Beat& beat) {
   const auto* recruitment = numbers(result.observables, fmt::format("recruitment.P{}", point));
   if (!recruitment || recruitment->empty() || is_none(recruitment->front())) return none;
+  // Of a single row there is no time to take a share of.
+  if (beat.first == beat.last) return (*recruitment)[beat.first] > 0.5 ? 1 : 0;
   double sum = 0;
   for (const auto& [start, end] : recruited_intervals(result, point, beat.start, beat.end()))
     sum += end - start;

@@ -49,7 +49,8 @@ double peak_time(const Table& table, std::string_view column, const Beat& beat);
 std::vector<std::pair<double, double>> recruited_intervals(const Result& result, int point, double from,
                                                            double to);
 
-/// Share of the beat (0 to 1) in which fibres at a wall point are recruited; `none` without fibres.
+/// Share of the beat (0 to 1) in which fibres at a wall point are recruited; `none` without fibres. Of a beat
+/// of a single row, such as a static state, 1 where H > 1/2, else 0.
 double recruited_share(const Result& result, int point, const Beat& beat);
 
 }  // namespace tunica::observables

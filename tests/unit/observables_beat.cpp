@@ -148,3 +148,21 @@ TEST(Beat, ALawWithoutFibresHasNoShare) {
   EXPECT_TRUE(is_none(recruited_share(run.result, 1, last_beat(run))));
   EXPECT_TRUE(recruited_intervals(run.result, 1, 0, 1.6).empty());
 }
+
+TEST(Beat, ASingleRowHasItsFibresRecruitedOrNot) {
+  StoredResult run = synthetic_run({.law = "EXP1+EXP2-FS"});
+  // At s = 1/2 of the made-up curves: above the thresholds of P1 and P2, below those of P3 and P4.
+  const std::size_t row = 800 + 11;
+  for (std::size_t column = 0; column < run.result.observables.columns().size(); ++column) {
+    auto& values = run.result.observables[column].values;
+    values = {values[row]};
+  }
+  run.result.observables[0].values = {0};
+  run.result.events = event_table();
+  const Beat beat = last_beat(run);
+  EXPECT_FALSE(beat.whole);
+  for (const auto& [point, share] : {std::pair{1, 1.0}, {2, 1.0}, {3, 0.0}, {4, 0.0}})
+    EXPECT_EQ(recruited_share(run.result, point, beat), share) << point;
+  const StoredResult isotropic = synthetic_run({.law = "EXP1"});
+  EXPECT_TRUE(is_none(recruited_share(isotropic.result, 1, last_beat(isotropic))));
+}
