@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "verification/claims.hpp"
 #include "verification/readings.hpp"
@@ -21,6 +22,9 @@ struct Answer {
   bool uses_activation = false;  ///< the answer depends on the activation threshold a^2
   bool uses_exponent = false;    ///< the answer depends on the exponent of the fibre law
 };
+
+/// Whether a claim is about an artery of the paper, "cylinder" or "torus".
+bool is_about(const Claim& claim, std::string_view geometry);
 
 Answer answer(const Claim& claim, const ReadingGroup& group);
 

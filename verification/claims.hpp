@@ -39,16 +39,17 @@ struct Comparison {
   std::vector<std::string> left_out;  ///< runs not compared and why, one line each
 };
 
-/// Sets the paper's claims (notebooks_data/paper_claims.csv) beside runs of its straight artery, over their
-/// last beat. Runs are taken together by tier and reading. A run of another scene, or without a whole
-/// beat, is left out.
-Comparison compare_with_paper(const std::vector<StoredResult>& runs);
+/// Sets the paper's claims (notebooks_data/paper_claims.csv) beside runs of its two arteries, over their last
+/// beat. Runs are taken together by artery, tier and reading. A run of another scene, or without a whole
+/// beat, is left out; `names`, one for each run, are what such a run is called by: its folder and law when
+/// empty.
+Comparison compare_with_paper(const std::vector<StoredResult>& runs, std::vector<std::string> names = {});
 
 /// How the paper's misprints and omissions were read in a run: "tether normal, a2 = 1.6740, exponent 2".
 std::string reading_of(const StoredResult& run);
 
-/// Keys in which a run's scene differs from the paper's straight artery, as "key = value (paper: value)".
-/// The law and the choices named by reading_of are no difference.
+/// Keys in which a run's scene differs from the paper's straight artery or, for a torus, its bent one, as
+/// "key = value (paper: value)". The law and the choices named by reading_of are no difference.
 std::vector<std::string> differences_from_paper(const StoredResult& run);
 
 /// The comparison as the table of docs/reproduction.md: GitHub Markdown, deterministic.

@@ -100,7 +100,10 @@ CrossTier verify(const std::vector<const Tier*>& tiers, const SceneSource& scene
 /// Comparison of runs that have been made, for the tiers and links given.
 void compare(TierComparison& comparison, const std::vector<VerifiedRun>& runs, double tolerance);
 
-/// Text for a terminal of 80 columns.
+/// "lumped against axisym disagrees: 8 quantities agree, 18 differ by the model, 2 disagree".
+std::string verdict_sentence(const CrossTier& found, const TierComparison& comparison);
+
+/// Text for a terminal of 80 columns, the verdicts first.
 std::string to_text(const CrossTier& found);
 /// verify.json.
 nlohmann::ordered_json to_json(const CrossTier& found);

@@ -155,8 +155,22 @@ std::string claims_table(const Comparison& claims) {
 
 }  // namespace
 
+std::string verdict_sentence(const CrossTier& found, const TierComparison& comparison) {
+  const auto count = [&](Agreement verdict) {
+    return std::count_if(comparison.rows.begin(), comparison.rows.end(),
+                         [&](const QuantityRow& row) { return row.verdict == verdict; });
+  };
+  return fmt::format("{} against {} {}: {} quantities agree, {} differ by the model, {} disagree",
+                     found.runs[comparison.run].tier, found.runs[comparison.reference].tier,
+                     to_text(comparison.verdict()), count(Agreement::agrees), count(Agreement::explained),
+                     count(Agreement::disagrees));
+}
+
 std::string to_text(const CrossTier& found) {
   std::string text;
+  for (const TierComparison& comparison : found.comparisons)
+    text += wrapped(fmt::format("{}: {}", found.scene, verdict_sentence(found, comparison)), 2);
+  if (!text.empty()) text += "\n";
   for (const TierComparison& comparison : found.comparisons) {
     const auto& [tier, reference] =
         std::pair(found.runs[comparison.run].tier, found.runs[comparison.reference].tier);
@@ -168,18 +182,6 @@ std::string to_text(const CrossTier& found) {
   }
   text += recruitment_table(found);
   text += claims_table(found.claims);
-  for (const TierComparison& comparison : found.comparisons) {
-    const auto count = [&](Agreement verdict) {
-      return std::count_if(comparison.rows.begin(), comparison.rows.end(),
-                           [&](const QuantityRow& row) { return row.verdict == verdict; });
-    };
-    text += wrapped(
-        fmt::format("\n{}: {} against {} {}: {} quantities agree, {} differ by the model, {} disagree",
-                    found.scene, found.runs[comparison.run].tier, found.runs[comparison.reference].tier,
-                    to_text(comparison.verdict()), count(Agreement::agrees), count(Agreement::explained),
-                    count(Agreement::disagrees)),
-        2);
-  }
   return text;
 }
 

@@ -10,7 +10,7 @@
 
 namespace tunica::verification {
 
-/// A run that can be compared: the paper's scene with a whole beat.
+/// A run that can be compared: one of the paper's two arteries with a whole beat.
 struct ComparedRun {
   const StoredResult* stored = nullptr;
   std::string law;
@@ -22,12 +22,13 @@ struct ComparedRun {
 /// How a run read what the paper leaves open. Isotropic laws have no activation and no exponent.
 struct Reading {
   std::string tier;
+  std::string geometry;  ///< "cylinder" or "torus"
   std::string tether;
   double activation_squared = observables::none;  ///< a^2 of EXP1+EXP2-FS
   long exponent = 0;                              ///< 0 without fibres
 };
 
-/// Runs of one tier with one reading, at most one of each law.
+/// Runs of one artery and tier with one reading, at most one of each law.
 struct ReadingGroup {
   Reading reading;
   std::vector<ComparedRun> runs;  ///< in the paper's order: EXP1, EXP2, ZS, FS
@@ -46,8 +47,9 @@ std::string_view short_name(std::string_view law);
 
 Reading read_reading(const StoredResult& run);
 
-/// Sorts runs by tier and reading. What cannot be compared is told in `left_out`.
+/// Sorts runs by artery, tier and reading. What cannot be compared is told in `left_out`, by the run's name.
 std::vector<ReadingGroup> group_by_reading(const std::vector<StoredResult>& runs,
+                                           const std::vector<std::string>& names,
                                            std::vector<std::string>& left_out);
 
 /// Text of the parts of a reading that matter for laws with fibres, or for isotropic ones alone.

@@ -33,6 +33,24 @@ Verdict verdict_of(const std::vector<StoredResult>& runs, const std::string& id)
   return row_of(compare_with_paper(runs), id).verdict;
 }
 
+/// A made-up run of the paper's bent artery, whose sides move apart by a share of the displacement.
+StoredResult torus(const std::string& law, double scale, double apart = 0) {
+  StoredResult run = synthetic_run({.law = law, .displacement_scale = scale});
+  run.record["tier"] = "full3d";
+  run.record["scene"]["geometry.kind"] = "torus";
+  run.record["scene"]["geometry.bend_angle"] = 120.0;
+  run.record["scene"]["mesh.symmetry"] = "full";
+  run.record["scene_set"] = {"wall.law", "geometry.kind", "geometry.bend_angle", "mesh.symmetry"};
+  auto& table = run.result.observables;
+  const std::vector<double> outside = table.find("radial_displacement.P1")->values;
+  for (const auto& [name, factor] :
+       {std::pair{"radial_displacement.P1.90deg", 1.0}, {"radial_displacement.P1.270deg", 1 - apart}}) {
+    auto& values = table[table.add(name, "cm")].values;
+    for (const double value : outside) values.push_back(factor * value);
+  }
+  return run;
+}
+
 void set_column(StoredResult& run, const std::string& name, double factor) {
   const auto& columns = run.result.observables.columns();
   for (std::size_t index = 0; index < columns.size(); ++index)
@@ -195,6 +213,69 @@ TEST(Claims, OtherScenesAreLeftOutWithTheReason) {
   EXPECT_NE(none.left_out[1].find("not one of the paper's laws"), std::string::npos);
   EXPECT_NE(none.left_out[2].find("wall.stiffness = 80000.0 (paper: 76350.0)"), std::string::npos);
   EXPECT_NE(none.left_out[3].find("ended before its first beat was over"), std::string::npos);
+}
+
+TEST(Claims, ATorusIsHeldAgainstThePapersNumbersForIt) {
+  std::vector<StoredResult> runs{torus("EXP2", 0.0212), torus("EXP1+EXP2-ZS", 0.0190)};
+  const Comparison comparison = compare_with_paper(runs);
+  EXPECT_TRUE(comparison.left_out.empty());
+  std::set<std::string> ids;
+  for (const ClaimRow& row : comparison.rows) ids.insert(row.id);
+  EXPECT_EQ(ids, (std::set<std::string>{"p_min", "p_max", "dofs_torus", "torus_exp2_sym", "torus_zs_asym",
+                                        "torus_zs_smaller", "torus_fs_not_run"}));
+  EXPECT_EQ(row_of(comparison, "p_min").ours, "EXP2\u00a075.0, ZS\u00a075.0 mmHg");
+  EXPECT_EQ(row_of(comparison, "p_max").ours, "EXP2\u00a0130.0, ZS\u00a0130.0 mmHg");
+  EXPECT_EQ(row_of(comparison, "p_max").reading, "full3d, torus, tether\u00a0normal, exponent\u00a02");
+  for (const char* id : {"p_min", "p_max"}) EXPECT_EQ(row_of(comparison, id).verdict, Verdict::agrees) << id;
+  for (const char* id : {"torus_exp2_sym", "torus_zs_smaller"})
+    EXPECT_EQ(row_of(comparison, id).verdict, Verdict::qualitative_agreement) << id;
+  // 0.0190 of 0.0212 cm.
+  EXPECT_NE(row_of(comparison, "torus_zs_smaller").ours.find("0.896 (0.896 to 0.896"), std::string::npos);
+  EXPECT_EQ(row_of(comparison, "torus_zs_asym").verdict, Verdict::not_answered_by_results);
+
+  set_column(runs[1], "pressure", 1.05);
+  EXPECT_EQ(verdict_of(runs, "p_max"), Verdict::disagrees);
+  runs = {torus("EXP2", 0.0190, 0.02), torus("EXP1+EXP2-ZS", 0.0212)};
+  EXPECT_EQ(row_of(compare_with_paper(runs), "torus_exp2_sym").ours,
+            "sides differ by 2.00 % of the displacement");
+  EXPECT_EQ(verdict_of(runs, "torus_exp2_sym"), Verdict::disagrees);
+  EXPECT_EQ(verdict_of(runs, "torus_zs_smaller"), Verdict::disagrees);
+}
+
+TEST(Claims, ADisagreementOfAFirstBeatFromRestIsToldAsSuch) {
+  std::vector<StoredResult> runs{synthetic_run({.law = "EXP1", .beats = 1})};
+  runs[0].record["scene"]["time.start"] = "rest";
+  const ClaimRow row = row_of(compare_with_paper(runs), "p_min");
+  EXPECT_EQ(row.verdict, Verdict::disagrees);
+  EXPECT_EQ(row.note, "this beat begins at rest, the paper's does not");
+  runs = {synthetic_run({.law = "EXP1", .beats = 2, .lowest_pressure = 50})};
+  runs[0].record["scene"]["time.start"] = "rest";
+  EXPECT_EQ(row_of(compare_with_paper(runs), "p_min").note, "");
+}
+
+TEST(Claims, ArteriesAreNotMixed) {
+  std::vector<StoredResult> runs{torus("EXP2", 0.0212),
+                                 synthetic_run({.law = "EXP2", .highest_pressure = 140})};
+  const Comparison comparison = compare_with_paper(runs);
+  std::map<std::string, std::string> ours;
+  for (const ClaimRow& row : comparison.rows)
+    if (row.id == "p_max") ours[row.reading] = row.ours;
+  EXPECT_EQ(ours,
+            (std::map<std::string, std::string>{{"full3d, torus, tether\u00a0normal", "EXP2\u00a0130.0 mmHg"},
+                                                {"lumped, tether\u00a0normal", "EXP2\u00a0140.0 mmHg"}}));
+  // For a straight artery in 3D, the tier is not what is missing.
+  runs = {synthetic_run({.law = "EXP2"})};
+  runs[0].record["tier"] = "full3d";
+  EXPECT_EQ(verdict_of(runs, "torus_exp2_sym"), Verdict::not_answered_by_results);
+  // A torus of another section is none of the paper's.
+  runs = {torus("EXP2", 0.0212)};
+  runs[0].record["scene"]["geometry.radius"] = 0.2;
+  runs[0].record["scene_set"].push_back("geometry.radius");
+  const Comparison other = compare_with_paper(runs, {"the bend"});
+  EXPECT_TRUE(other.rows.empty());
+  ASSERT_EQ(other.left_out.size(), 1u);
+  EXPECT_EQ(other.left_out[0],
+            "the bend: not one of the paper's arteries: geometry.radius = 0.2 (paper: 0.033)");
 }
 
 TEST(Claims, WhatDoesNotChangeThePhysicsIsNoDifference) {
