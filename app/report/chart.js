@@ -5,7 +5,8 @@
 // cursor and hides or shows a run, a point, or one line.
 const Chart = (() => {
   const dashes = [[], [7, 4], [2, 3], [10, 3, 2, 3], [14, 5], [4, 2, 1, 2, 1, 2]];
-  const colours = 8;
+  const colours = 12;
+  const fewest = 9;  // a line of fewer values is drawn with a point for each
   let theme = new Map();
 
   const colour = name => {
@@ -52,7 +53,7 @@ const Chart = (() => {
   }
 
   class Figure {
-    // spec: {id, title, unit, figure, digits, xLabel, sync, lines, caption, height, range, axis, draw, valueAt}
+    // spec: {id, title, unit, figure, digits, xLabel, sync, lines, caption, height, range, xRange, axis, xAxis, draw, valueAt}
     // lines: [{run, runLabel, part, partLabel, x, y}], run and part count the colours and dashes.
     constructor(parent, spec) {
       this.spec = spec;
@@ -86,11 +87,12 @@ const Chart = (() => {
         width: Math.max(200, this.box.clientWidth), height: spec.height || 250, padding: [10, 12, 0, 0],
         legend: {show: false},
         cursor: {sync: {key: spec.sync}, points: {size: 6}, y: false, drag: {x: true, y: false}},
-        scales: {x: {time: false}, y: spec.range ? {range: spec.range} : {}},
-        axes: [{...axis, label: spec.xLabel(), labelSize: 22, size: 34, space: 55},
+        scales: {x: {time: false, ...(spec.xRange ? {range: spec.xRange} : {})}, y: spec.range ? {range: spec.range} : {}},
+        axes: [{...axis, label: spec.xLabel(), labelSize: 22, size: 34, space: 55, ...spec.xAxis},
                {...axis, size: 54, space: 34, ...spec.axis}],
         series: [{}, ...spec.lines.map(line => ({
-          stroke: () => colour(line.colour), width: line.width, dash: line.dash, points: {show: false}, pxAlign: 0,
+          stroke: () => colour(line.colour), width: line.width, dash: line.dash, pxAlign: 0,
+          points: {show: line.y.length < fewest, size: 9, stroke: () => colour(line.colour), fill: () => colour(line.colour)},
           ...(spec.draw ? {paths: () => null} : {}),
         }))],
         hooks: {setCursor: [() => this.showValues()], ready: [ready], ...(spec.draw ? {draw: [() => spec.draw(this)]} : {})},
@@ -125,7 +127,8 @@ const Chart = (() => {
       };
       const cell = (line, name) => {
         line.output = element("output", {"aria-live": "off"});
-        const made = button([line], sample(line, this.spec.draw), ...(name ? [name] : []), line.output);
+        const part = element("span", {class: "part"}, line.partLabel);
+        const made = button([line], sample(line, this.spec.draw), name || part, line.output);
         if (!name) made.setAttribute("aria-label", `${line.runLabel} ${line.partLabel}`);
         return element("td", {}, made);
       };
@@ -184,5 +187,5 @@ const Chart = (() => {
     repaint() { this.plot.redraw(false, true); }
   }
 
-  return {Figure, element, colour, format, forgetColours: () => { theme = new Map(); }};
+  return {Figure, element, colour, colours, format, forgetColours: () => { theme = new Map(); }};
 })();

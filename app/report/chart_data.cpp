@@ -68,7 +68,7 @@ void append_columns(Object& run, const Table& table) {
 }
 
 void append_intervals(Object& run, const RunSummary& summary) {
-  if (is_none(summary.recruited_share[0])) return;
+  if (is_none(summary.recruited_share[0]) || summary.is_state) return;
   Object points(run.key("recruited"));
   for (int point = 1; point <= wall_points; ++point) {
     std::string& json = points.key(fmt::format("P{}", point));

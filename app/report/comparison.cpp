@@ -10,16 +10,14 @@ namespace {
 
 using namespace verification;
 
-const char* look(Agreement verdict) {
-  switch (verdict) {
-    case Agreement::agrees:
-      return "<td class=\"verdict agrees\"><span aria-hidden=\"true\">✓</span> ";
-    case Agreement::explained:
-      return "<td class=\"verdict open\"><span aria-hidden=\"true\">≈</span> ";
-    case Agreement::disagrees:
-      break;
-  }
-  return "<td class=\"verdict disagrees\"><span aria-hidden=\"true\">✗</span> ";
+const char* css_class(Agreement verdict) {
+  return verdict == Agreement::agrees ? "agrees" : verdict == Agreement::explained ? "open" : "disagrees";
+}
+
+std::string look(Agreement verdict) {
+  const char* mark = verdict == Agreement::agrees ? "✓" : verdict == Agreement::explained ? "≈" : "✗";
+  return fmt::format("<td class=\"verdict {}\"><span aria-hidden=\"true\">{}</span> ", css_class(verdict),
+                     mark);
 }
 
 std::string shown_unit(const Quantity& quantity) {
@@ -106,6 +104,11 @@ std::string comparison_section(const CrossTier* found) {
   std::string text = "<section aria-labelledby=\"compared\">\n<h2 id=\"compared\">Tiers compared</h2>\n";
   if (const std::string failure = found->failure(); !failure.empty())
     text += fmt::format("<p class=\"banner\">Not compared: {}</p>\n", escape(failure));
+  std::string verdicts;
+  for (const TierComparison& comparison : found->comparisons)
+    verdicts += fmt::format("<li class=\"{}\">{}.</li>", css_class(comparison.verdict()),
+                            escape(verdict_sentence(*found, comparison)));
+  if (!verdicts.empty()) text += fmt::format("<ul class=\"verdicts\">{}</ul>\n", verdicts);
   for (const TierComparison& comparison : found->comparisons) {
     text +=
         fmt::format("<h3>{} against {}: {}</h3>\n", escape(found->runs[comparison.run].tier),

@@ -25,21 +25,22 @@ namespace tunica {
 
 namespace {
 
-std::string title_of(const std::vector<report::RunSummary>& runs) {
+/// Each name once, and no more of them than a heading bears.
+std::string list_of(const std::vector<report::RunSummary>& runs, std::string report::RunSummary::*name,
+                    const char* separator) {
+  constexpr std::size_t most = 4;
   std::vector<std::string> names;
   for (const auto& run : runs)
-    if (std::find(names.begin(), names.end(), run.name) == names.end()) names.push_back(run.name);
-  return fmt::format("{}", fmt::join(names, ", "));
+    if (std::find(names.begin(), names.end(), run.*name) == names.end()) names.push_back(run.*name);
+  const std::size_t more = names.size() > most ? names.size() - most + 1 : 0;
+  names.resize(names.size() - more);
+  return fmt::format("{}{}", fmt::join(names, separator), more > 0 ? fmt::format(" and {} more", more) : "");
 }
 
 std::string subtitle_of(const std::vector<report::RunSummary>& runs) {
-  std::vector<std::string> labels;
-  std::vector<std::string> tiers;
-  for (const auto& run : runs) {
-    labels.push_back(run.label);
-    if (std::find(tiers.begin(), tiers.end(), run.tier) == tiers.end()) tiers.push_back(run.tier);
-  }
-  return fmt::format("{} · {} tier", fmt::join(labels, ", "), fmt::join(tiers, ", "));
+  using Run = report::RunSummary;
+  return fmt::format("{}{} · {} tier", runs.size() > 1 ? fmt::format("{} runs · ", runs.size()) : "",
+                     list_of(runs, &Run::law, ", "), list_of(runs, &Run::tier, ", "));
 }
 
 }  // namespace
@@ -49,7 +50,7 @@ std::string make_report(const std::vector<StoredResult>& stored, const verificat
   const auto runs = report::summarize(stored);
   const report::Scene3d scene = report::scene_3d(runs);
   return report::fill(embedded::report_template(),
-                      {{"title", report::escape(title_of(runs))},
+                      {{"title", report::escape(list_of(runs, &report::RunSummary::name, ", "))},
                        {"subtitle", report::escape(subtitle_of(runs))},
                        {"version", report::escape(program_version())},
                        {"uplot_style", std::string(embedded::uplot_style())},
@@ -58,7 +59,9 @@ std::string make_report(const std::vector<StoredResult>& stored, const verificat
                        {"differences", report::comparison_data(comparison)},
                        {"viewer", report::viewer_section(scene)},
                        {"headline", report::headline_table(runs)},
-                       {"claims", report::claims_section(stored)},
+                       {"remarks", report::remarks_section(runs)},
+                       {"states", report::states_section(runs)},
+                       {"claims", report::claims_section(stored, runs)},
                        {"events", report::events_section(runs)},
                        {"runs", report::runs_section(runs)},
                        {"data", report::chart_data(runs)},

@@ -35,8 +35,10 @@
   const cut = (run, values) => values.slice(run.spans[span].first, run.spans[span].end);
 
   const note = (parent, text) => parent.append(element("p", {class: "note"}, text));
+  // A single row is a state, which has no curve over time.
+  const isState = run => run.time.length === 1;
   const missing = (lines, why) => {
-    const without = runs.filter((run, index) => !lines.some(line => line.run === index)).map(run => run.label);
+    const without = runs.filter((run, index) => !isState(run) && !lines.some(line => line.run === index)).map(run => run.label);
     return without.length ? `Not shown: ${without.join("; ")} (${why}).` : "";
   };
 
@@ -44,7 +46,7 @@
   function timeChart(spec, parts) {
     const parent = document.getElementById("time-charts");
     const lines = [];
-    runs.forEach((run, at) => parts.forEach(([column, label], part) => {
+    runs.forEach((run, at) => !isState(run) && parts.forEach(([column, label], part) => {
       const values = run.columns[column];
       if (values) lines.push({run: at, runLabel: run.label, part, partLabel: label, source: values, x: run.spans[span].x, y: cut(run, values)});
     }));
@@ -65,12 +67,38 @@
   }
   const atPoints = quantity => points.map(point => [`${quantity}.${point}`, point]);
 
+  // States at P1..P4: a point for each, joined by a line.
+  function stateChart(spec, quantity) {
+    const states = runs.map((run, index) => ({run, index})).filter(entry => isState(entry.run));
+    const lines = states.filter(({run}) => run.columns[`${quantity}.P1`]).map(({run, index}) => ({
+      run: index, runLabel: run.label, part: 0, partLabel: "", x: points.map((_, part) => part + 1),
+      y: points.map(point => run.columns[`${quantity}.${point}`]?.[0] ?? null),
+    }));
+    if (!lines.length) return;
+    const without = states.filter(({index}) => !lines.some(line => line.run === index)).map(({run}) => run.label);
+    figures.push(new Figure(document.getElementById("state-charts"), {
+      sync: "states", xLabel: () => "point, from the inner (P1) to the outer surface (P4)", ...spec, lines,
+      xRange: () => [.8, points.length + .2],
+      xAxis: {splits: () => points.map((_, part) => part + 1), values: () => points},
+      caption: without.length ? `Not shown: ${without.join("; ")} (no fibres).` : "",
+    }));
+  }
+  function stateCharts() {
+    if (!runs.some(isState)) return;
+    stateChart({id: "state-displacement", title: "Displacement", unit: "cm", digits: 5}, "radial_displacement");
+    stateChart({id: "state-mises", title: "Von Mises stress", unit: "10\u2075 dyn/cm²", digits: 3}, "von_mises");
+    stateChart({id: "state-angle", title: "Fibre angle", unit: "°", digits: 2}, "fiber_angle");
+    stateChart({id: "state-stretch", title: "Fibre stretch", digits: 4}, "fiber_stretch");
+    stateChart({id: "state-recruitment", title: "Recruitment H", digits: 3, range: () => [-.06, 1.06]}, "recruitment");
+  }
+
   // Bars of the intervals in which fibres are recruited, a lane for each point, P1 on top, and a bar for each
   // run in a lane. The inflow of the first run lies behind, as in the paper's figure.
   function intervalChart() {
     const parent = document.getElementById("time-charts");
-    const spec = {id: "intervals", title: "Intervals of recruitment", figure: "cf. Fig. 14d"};
     const withFibres = runs.map((run, index) => ({run, index})).filter(entry => entry.run.recruited);
+    // Of many runs each bar keeps a few pixels.
+    const spec = {id: "intervals", title: "Intervals of recruitment", figure: "cf. Fig. 14d", height: Math.max(250, 60 + 38 * withFibres.length)};
     if (!withFibres.length) return note(parent, `${spec.title}: no fibres in these laws.`);
     const lane = part => points.length - 1 - part;
     const lines = withFibres.flatMap(({run, index}) => points.map((point, part) => ({
@@ -103,7 +131,7 @@
         ctx.fill();
       }
       const laneHeight = Math.abs(plot.valToPos(0, "y", true) - plot.valToPos(1, "y", true)) * .64;
-      const barHeight = Math.min(16 * ratio, laneHeight / withFibres.length);
+      const barHeight = Math.min(16 * ratio, laneHeight / withFibres.length), gap = Math.min(ratio, barHeight / 6);
       for (const line of lines) {
         if (!line.shown) continue;
         const order = withFibres.findIndex(entry => entry.index === line.run);
@@ -111,7 +139,7 @@
         ctx.fillStyle = colour(line.colour);
         for (const [from, to] of line.intervals) {
           const left = plot.valToPos(from - shift(line), "x", true), right = plot.valToPos(to - shift(line), "x", true);
-          ctx.fillRect(left, top + ratio, Math.max(ratio, right - left), barHeight - 2 * ratio);
+          ctx.fillRect(left, top + gap, Math.max(ratio, right - left), barHeight - 2 * gap);
         }
       }
       ctx.restore();
@@ -245,24 +273,34 @@
     if (select.options.length) show();
   }
 
+  function timeCharts() {
+    timeChart({id: "pressure", title: "Pressure", unit: "mmHg", figure: "cf. Fig. 6", digits: 2},
+              [["pressure", "mid-length"], ["outlet_pressure", "outlet"]]);
+    timeChart({id: "transmural", title: "Transmural pressure", unit: "mmHg", digits: 2}, [["transmural_pressure", "transmural"]]);
+    timeChart({id: "flow", title: "Flow", unit: "cm³/s", figure: "cf. Fig. 5", digits: 4}, [["inflow", "in"], ["outflow", "out"]]);
+    timeChart({id: "displacement", title: "Displacement of the inner surface", unit: "cm", figure: "cf. Fig. 10", digits: 5},
+              [["radial_displacement.P1", "P1"]]);
+    timeChart({id: "displacement-points", title: "Displacement through the wall", unit: "cm", figure: "cf. Fig. 14b", digits: 5},
+              atPoints("radial_displacement"));
+    timeChart({id: "angle", title: "Fibre angle", unit: "°", figure: "cf. Figs. 12–13", digits: 2, why: "no fibres"}, atPoints("fiber_angle"));
+    timeChart({id: "stretch", title: "Fibre stretch", digits: 4, why: "no fibres"}, atPoints("fiber_stretch"));
+    timeChart({id: "mises", title: "Von Mises stress", unit: "10\u2075 dyn/cm²", digits: 3}, atPoints("von_mises"));
+    timeChart({id: "recruitment", title: "Recruitment H", figure: "cf. Fig. 14c", digits: 3, why: "no fibres", range: () => [-.06, 1.06]},
+              atPoints("recruitment"));
+    intervalChart();
+  }
+  function profileCharts() {
+    profileChart("profiles", {id: "profile-circumferential", title: "Circumferential stretch", digits: 4}, "circumferential_stretch");
+    profileChart("profiles", {id: "profile-fiber", title: "Fibre stretch", digits: 4, why: "no fibres"}, "fiber_stretch");
+    profileChart("profiles", {id: "profile-mises", title: "Von Mises stress", unit: "10\u2075 dyn/cm²", figure: "cf. Figs. 15–16"}, "von_mises");
+  }
+
   differenceCharts();
-  timeChart({id: "pressure", title: "Pressure", unit: "mmHg", figure: "cf. Fig. 6", digits: 2},
-            [["pressure", "mid-length"], ["outlet_pressure", "outlet"]]);
-  timeChart({id: "transmural", title: "Transmural pressure", unit: "mmHg", digits: 2}, [["transmural_pressure", "transmural"]]);
-  timeChart({id: "flow", title: "Flow", unit: "cm³/s", figure: "cf. Fig. 5", digits: 4}, [["inflow", "in"], ["outflow", "out"]]);
-  timeChart({id: "displacement", title: "Displacement of the inner surface", unit: "cm", figure: "cf. Fig. 10", digits: 5},
-            [["radial_displacement.P1", "P1"]]);
-  timeChart({id: "displacement-points", title: "Displacement through the wall", unit: "cm", figure: "cf. Fig. 14b", digits: 5},
-            atPoints("radial_displacement"));
-  timeChart({id: "angle", title: "Fibre angle", unit: "°", figure: "cf. Figs. 12–13", digits: 2, why: "no fibres"}, atPoints("fiber_angle"));
-  timeChart({id: "stretch", title: "Fibre stretch", digits: 4, why: "no fibres"}, atPoints("fiber_stretch"));
-  timeChart({id: "mises", title: "Von Mises stress", unit: "10\u2075 dyn/cm²", digits: 3}, atPoints("von_mises"));
-  timeChart({id: "recruitment", title: "Recruitment H", figure: "cf. Fig. 14c", digits: 3, why: "no fibres", range: () => [-.06, 1.06]},
-            atPoints("recruitment"));
-  intervalChart();
-  profileChart("profiles", {id: "profile-circumferential", title: "Circumferential stretch", digits: 4}, "circumferential_stretch");
-  profileChart("profiles", {id: "profile-fiber", title: "Fibre stretch", digits: 4, why: "no fibres"}, "fiber_stretch");
-  profileChart("profiles", {id: "profile-mises", title: "Von Mises stress", unit: "10\u2075 dyn/cm²", figure: "cf. Figs. 15–16"}, "von_mises");
+  stateCharts();
+  if (runs.every(isState)) document.getElementById("beat-section").hidden = true;
+  else timeCharts();
+  if (runs.some(run => run.profiles)) profileCharts();
+  else document.getElementById("wall-section").hidden = true;
   alongCharts();
   sensitivityChart();
 
@@ -271,7 +309,7 @@
     const list = document.getElementById("run-list");
     list.hidden = false;
     runs.forEach((run, index) => {
-      const swatch = element("span", {class: "swatch", style: `background:var(--c${index % 8})`});
+      const swatch = element("span", {class: "swatch", style: `background:var(--c${index % Chart.colours})`});
       const button = element("button", {type: "button", "aria-pressed": "true"}, swatch, run.label);
       button.addEventListener("click", () => {
         const shown = button.getAttribute("aria-pressed") !== "true";
@@ -289,11 +327,48 @@
     });
   document.getElementById("reset").addEventListener("click", () => figures.forEach(figure => figure.resetZoom()));
 
+  // Tables that are wider than their place become lists, whose values need their heads beside them.
+  const tables = [...document.querySelectorAll(".scroll > table")];
+  function eachCell(rows, visit) {
+    const taken = [];
+    [...rows].forEach((row, at) => {
+      let column = 0;
+      for (const cell of row.cells) {
+        while (taken[at]?.[column]) ++column;
+        visit(cell, column);
+        for (let down = 0; down < cell.rowSpan; ++down)
+          for (let right = 0; right < cell.colSpan; ++right) (taken[at + down] ??= [])[column + right] = true;
+        column += cell.colSpan;
+      }
+    });
+  }
+  for (const table of tables) {
+    const heads = [];
+    eachCell(table.tHead.rows, (cell, column) => {
+      const words = cell.cloneNode(true);
+      for (const end of words.querySelectorAll("br")) end.replaceWith(" ");
+      for (let right = 0; right < cell.colSpan; ++right) (heads[column + right] ??= []).push(words.textContent.trim());
+    });
+    eachCell(table.tBodies[0].rows, (cell, column) => { cell.dataset.head = (heads[column] || []).join(": "); });
+  }
+  function fitTables() {
+    const boxes = [...document.querySelectorAll(".scroll, .legend")];
+    for (const box of boxes) box.classList.remove("narrow");
+    const wide = boxes.filter(box => box.scrollWidth > box.clientWidth + 1);
+    for (const box of wide) box.classList.add("narrow");
+  }
+  for (const details of document.querySelectorAll("details")) details.addEventListener("toggle", fitTables);
+
   let waiting = 0;
+  const refit = () => {
+    figures.forEach(figure => figure.resize());
+    fitTables();
+  };
   new ResizeObserver(() => {
     cancelAnimationFrame(waiting);
-    waiting = requestAnimationFrame(() => figures.forEach(figure => figure.resize()));
+    waiting = requestAnimationFrame(refit);
   }).observe(document.querySelector("main"));
+  fitTables();
 
   const repaint = () => {
     Chart.forgetColours();

@@ -48,6 +48,9 @@ struct ShownPart {
 
 struct ShownRun {
   std::string label;
+  double beat = none;    ///< s, start of the last whole beat
+  double period = none;  ///< s, its length
+  double peak = none;    ///< s, when its inflow is largest
   std::vector<double> times;
   std::vector<ShownPart> parts;
 };
@@ -158,8 +161,14 @@ ShownRun shown_run(const RunSummary& summary) {
   std::vector<const FieldSeries*> all;
   for (const FieldSeries& series : own.empty() ? stored : own)
     if (in_space(series) && !series.frames.empty() && !series.mesh.cells.empty()) all.push_back(&series);
-  ShownRun run{summary.label, {}, {}};
+  ShownRun run;
+  run.label = summary.label;
   if (all.empty()) return run;
+  if (!summary.is_state && summary.beat.whole) {
+    run.beat = summary.beat.start;
+    run.period = summary.beat.period;
+    run.peak = run.beat + summary.systole;
+  }
   const double cut = height_of_cut(all);
   std::size_t frames = all.front()->frames.size();
   for (const FieldSeries* series : all) frames = std::min(frames, series->frames.size());
@@ -168,15 +177,26 @@ ShownRun shown_run(const RunSummary& summary) {
   return run;
 }
 
-/// Every stride-th row, the last among them.
-Rows thinned(const Rows& rows, std::size_t count, std::size_t stride) {
-  Rows kept;
-  for (std::size_t k = (count - 1) % stride; k < count; k += stride) kept.push_back(rows[k]);
+/// Every stride-th time, the last among them and that of the peak flow.
+std::vector<std::size_t> kept_times(const ShownRun& run, std::size_t stride) {
+  const std::size_t count = run.times.size();
+  std::size_t peak = count;
+  for (std::size_t k = 0; k < count && !is_none(run.peak); ++k)
+    if (peak == count || std::abs(run.times[k] - run.peak) < std::abs(run.times[peak] - run.peak)) peak = k;
+  std::vector<std::size_t> kept;
+  for (std::size_t k = 0; k < count; ++k)
+    if (k % stride == (count - 1) % stride || k == peak) kept.push_back(k);
   return kept;
 }
 
+Rows thinned(const Rows& rows, const std::vector<std::size_t>& kept) {
+  Rows some;
+  for (const std::size_t k : kept) some.push_back(rows[k]);
+  return some;
+}
+
 std::size_t size_of(const ShownRun& run, const Detail& detail) {
-  const std::size_t frames = run.times.empty() ? 0 : (run.times.size() - 1) / detail.stride + 1;
+  const std::size_t frames = kept_times(run, detail.stride).size();
   std::size_t bytes = 0;
   for (const ShownPart& part : run.parts) {
     const Surface& surface = part.surface;
@@ -205,7 +225,7 @@ bool has_gaps(const Rows& rows) {
   });
 }
 
-nlohmann::ordered_json to_json(const ShownPart& part, std::size_t frames, const Detail& detail) {
+nlohmann::ordered_json to_json(const ShownPart& part, const std::vector<std::size_t>& kept, int bytes) {
   nlohmann::ordered_json json{{"name", part.name},
                               {"mirrored", part.mirrored},
                               {"cut", part.cut},
@@ -214,16 +234,16 @@ nlohmann::ordered_json to_json(const ShownPart& part, std::size_t frames, const 
                               {"outer", base64_of(indices(part.surface.outer))},
                               {"section", base64_of(indices(part.surface.section))}};
   if (!part.displacement.empty()) {
-    const Rows rows = thinned(part.displacement, frames, detail.stride);
+    const Rows rows = thinned(part.displacement, kept);
     json["displacement"] = to_json(quantise(rows, span_of(rows), 2), 2);
   }
   json["fields"] = nlohmann::ordered_json::array();
   const auto weights = areas(part.surface, part.points);
   for (const Shown& field : part.fields) {
-    const Rows rows = thinned(field.rows, frames, detail.stride);
+    const Rows rows = thinned(field.rows, kept);
     // With 8 bits all of them serve the colours; values beyond take the last one.
     const Span colours = telling_span(rows, weights), whole = span_of(rows);
-    auto values = to_json(quantise(rows, detail.bytes == 1 ? colours : whole, detail.bytes), detail.bytes);
+    auto values = to_json(quantise(rows, bytes == 1 ? colours : whole, bytes), bytes);
     values["name"] = field.name;
     values["label"] = field.label;
     values["unit"] = field.unit;
@@ -269,11 +289,14 @@ Scene3d scene_3d(const std::vector<RunSummary>& runs, std::size_t budget) {
         "<p class=\"note\">The fields have too many cells to be shown here; fields/ is for ParaView.</p>\n"};
   nlohmann::ordered_json json;
   for (const ShownRun& run : all) {
+    const std::vector<std::size_t> kept = kept_times(run, detail.stride);
     nlohmann::ordered_json times = nlohmann::ordered_json::array(), parts = times;
-    for (std::size_t k = (run.times.size() - 1) % detail.stride; k < run.times.size(); k += detail.stride)
-      times.push_back(run.times[k]);
-    for (const ShownPart& part : run.parts) parts.push_back(to_json(part, run.times.size(), detail));
-    json["runs"].push_back({{"label", run.label}, {"times", times}, {"parts", parts}});
+    for (const std::size_t k : kept) times.push_back(run.times[k]);
+    for (const ShownPart& part : run.parts) parts.push_back(to_json(part, kept, detail.bytes));
+    nlohmann::ordered_json one{{"label", run.label}, {"times", times}, {"parts", parts}};
+    if (!is_none(run.beat)) one["beat"] = {run.beat, run.period};
+    if (!is_none(run.peak)) one["peak"] = run.peak;
+    json["runs"].push_back(std::move(one));
   }
   return {script_json(json), notes_on(detail)};
 }

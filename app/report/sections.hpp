@@ -18,8 +18,16 @@ std::string chart_data(const std::vector<RunSummary>& runs);
 std::string comparison_section(const verification::CrossTier* found);
 std::string comparison_data(const verification::CrossTier* found);
 
+/// The square of a run's colour, which the charts give it too.
+std::string swatch(std::size_t run);
+
+/// Values of runs that have a single state, and a place for the charts of them. Empty without such runs.
+std::string states_section(const std::vector<RunSummary>& runs);
+
 std::string headline_table(const std::vector<RunSummary>& runs);
-std::string claims_section(const std::vector<StoredResult>& runs);
+/// What the runs found out and remark on, each line once.
+std::string remarks_section(const std::vector<RunSummary>& runs);
+std::string claims_section(const std::vector<StoredResult>& stored, const std::vector<RunSummary>& runs);
 std::string events_section(const std::vector<RunSummary>& runs);
 std::string runs_section(const std::vector<RunSummary>& runs);
 

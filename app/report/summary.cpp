@@ -3,11 +3,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <functional>
-
+#include "app/report/labels.hpp"
 #include "core/observables/record.hpp"
-#include "verification/claims.hpp"
 
 namespace tunica::report {
 
@@ -33,6 +30,7 @@ RunSummary summarize(const StoredResult& stored) {
   run.law = scene_text(stored.record, "wall.law");
   run.tier = record_text(stored.record, "tier");
   run.beat = last_beat(stored);
+  run.is_state = table.rows() == 1;
   run.period_end = table.find("time")->values.back();
 
   const std::string failure = record_text(stored.record, "failure");
@@ -58,33 +56,15 @@ RunSummary summarize(const StoredResult& stored) {
   return run;
 }
 
-/// Gives every run the shortest label of a few that tells all of them apart.
-void label(std::vector<RunSummary>& runs) {
-  using Labeller = std::function<std::string(const RunSummary&)>;
-  const auto reading = [](const RunSummary& run) { return verification::reading_of(*run.stored); };
-  const Labeller labellers[] = {
-      [](const RunSummary& run) { return run.law; },
-      [](const RunSummary& run) { return fmt::format("{}, {}", run.law, run.tier); },
-      [](const RunSummary& run) { return fmt::format("{}, {}", run.law, run.name); },
-      [&](const RunSummary& run) { return fmt::format("{}, {}", run.law, reading(run)); },
-      [&](const RunSummary& run) { return fmt::format("{}, {}, {}", run.law, run.name, reading(run)); },
-      [](const RunSummary& run) { return fmt::format("{}, {}", run.law, run.stored->folder.string()); }};
-  for (const Labeller& labeller : labellers) {
-    std::vector<std::string> labels;
-    for (RunSummary& run : runs) labels.push_back(run.label = labeller(run));
-    std::sort(labels.begin(), labels.end());
-    if (std::adjacent_find(labels.begin(), labels.end()) == labels.end()) return;
-  }
-  for (std::size_t index = 0; index < runs.size(); ++index)
-    runs[index].label += fmt::format(" ({})", index + 1);
-}
-
 }  // namespace
 
 std::vector<RunSummary> summarize(const std::vector<StoredResult>& stored) {
   std::vector<RunSummary> runs;
-  for (const StoredResult& one : stored) runs.push_back(summarize(one));
-  label(runs);
+  const std::vector<std::string> labels = labels_of(stored);
+  for (std::size_t index = 0; index < stored.size(); ++index) {
+    runs.push_back(summarize(stored[index]));
+    runs.back().label = labels[index];
+  }
   return runs;
 }
 

@@ -15,12 +15,13 @@ inline constexpr double mmhg = 1333.22387;  ///< dyn/cm2
 /// A run as the report speaks of it.
 struct RunSummary {
   const StoredResult* stored = nullptr;
-  std::string label;  ///< tells the runs of this report apart; the law alone when that is enough
+  std::string label;  ///< tells the runs of this report apart, see labels_of
   std::string name;   ///< of the scene
   std::string law;
   std::string tier;
   std::string state;  ///< "done", "not converged", "interrupted", or the failure
   bool is_complete = true;
+  bool is_state = false;  ///< one row: a static state, or a run that stopped at once
   observables::Beat beat;
   double period_end = 0;  ///< s, the run's last output time
 

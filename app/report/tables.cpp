@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <map>
 #include <stdexcept>
 #include <utility>
 
 #include "app/report/html.hpp"
+#include "app/report/labels.hpp"
 #include "app/report/sections.hpp"
 #include "core/observables/record.hpp"
 #include "verification/claims.hpp"
@@ -26,10 +29,6 @@ std::string range_text(const Range& range, int decimals) {
   return lowest == highest ? lowest : fmt::format("{} to {}", lowest, highest);
 }
 
-std::string swatch(std::size_t run) {
-  return fmt::format("<span class=\"swatch\" style=\"background:var(--c{})\"></span>", run % 8);
-}
-
 std::string run_header(const RunSummary& run, std::size_t index, const char* rest = "") {
   return fmt::format("<th scope=\"row\" class=\"run\">{}{}{}</th>", swatch(index), escape(run.label), rest);
 }
@@ -37,7 +36,8 @@ std::string run_header(const RunSummary& run, std::size_t index, const char* res
 std::string shares(const RunSummary& run) {
   if (is_none(run.recruited_share[0])) return "<td class=\"none\" colspan=\"4\">no fibres</td>";
   std::string cells;
-  for (const double share : run.recruited_share) cells += fmt::format("<td>{}</td>", number(100 * share, 1));
+  for (const double share : run.recruited_share)
+    cells += fmt::format("<td>{}</td>", run.is_state ? (share > 0 ? "on" : "off") : number(100 * share, 1));
   return cells;
 }
 
@@ -72,6 +72,35 @@ std::string verdict_counts(const std::vector<ClaimRow>& rows) {
   return fmt::format("<ul class=\"counts\">{}</ul>\n", text);
 }
 
+/// What the verdicts stand on: how these runs read the paper, and where all readings are.
+std::string readings_sentence(const std::vector<ClaimRow>& rows) {
+  // Of each tier and tether the longest, which names what the readings of other claims leave out.
+  std::map<std::string, std::string> readings;
+  for (const ClaimRow& row : rows) {
+    if (row.verdict == Verdict::not_answered_by_tier) continue;
+    const std::size_t end = std::min(row.reading.find(", a²"), row.reading.find(", exponent"));
+    std::string& longest = readings[row.reading.substr(0, end)];
+    if (row.reading.size() > longest.size()) longest = row.reading;
+  }
+  std::string list;
+  for (const auto& [start, reading] : readings)
+    list += fmt::format("{}<b>{}</b>", list.empty() ? "" : "; ", escape(reading));
+  const auto wrong = std::count_if(rows.begin(), rows.end(),
+                                   [](const ClaimRow& row) { return row.verdict == Verdict::disagrees; });
+  std::string text =
+      "<p>The paper leaves open how its tether presses, where collagen is recruited (a²) and which exponent "
+      "its "
+      "fibre law has. ";
+  if (!list.empty()) text += fmt::format("These runs read it so: {}. ", list);
+  if (wrong > 0)
+    text += fmt::format("{} under {}; no reading makes all of them agree, and nothing is tuned to. ",
+                        wrong == 1 ? "One answer disagrees" : fmt::format("{} answers disagree", wrong),
+                        readings.size() == 1 ? "this reading" : "these readings");
+  return text +
+         "The page docs/reproduction.md of Tunica sets every claim beside every reading and explains "
+         "them.</p>\n";
+}
+
 std::string claim_cells(const ClaimRow& row, std::size_t span) {
   const auto small = [](const std::string& text) {
     return text.empty() ? text : fmt::format("<br><small>{}</small>", escape(text));
@@ -85,19 +114,23 @@ std::string claim_cells(const ClaimRow& row, std::size_t span) {
 
 }  // namespace
 
+std::string swatch(std::size_t run) {
+  constexpr std::size_t colours = 12;  // of report.css
+  return fmt::format("<span class=\"swatch\" style=\"background:var(--c{})\"></span>", run % colours);
+}
+
 std::string headline_table(const std::vector<RunSummary>& runs) {
   std::string body;
-  bool is_stopped = false;
   for (std::size_t index = 0; index < runs.size(); ++index) {
     const RunSummary& run = runs[index];
     const std::string state = fmt::format("<br><small class=\"{}\">{}</small>",
                                           run.is_complete ? "" : "stopped", escape(run.state));
-    is_stopped = is_stopped || !run.is_complete;
     body += fmt::format("<tr>{}<td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>{}</tr>",
                         run_header(run, index, state.c_str()), range_text(run.pressure, 1),
-                        range_text(run.transmural_pressure, 1), number(100 * run.radius_change, 1),
+                        range_text(run.transmural_pressure, 1),
+                        run.is_state ? "–" : number(100 * run.radius_change, 1),
                         number(100 * run.largest_radius, 1), range_text(run.angle_at_start, 2),
-                        range_text(run.angle_at_systole, 2), shares(run));
+                        run.is_state ? "–" : range_text(run.angle_at_systole, 2), shares(run));
   }
   const char* head =
       "<tr><th scope=\"col\" rowspan=\"2\">Run</th><th scope=\"col\" rowspan=\"2\">Pressure<br>mmHg</th>"
@@ -110,16 +143,20 @@ std::string headline_table(const std::vector<RunSummary>& runs) {
       "<th scope=\"col\">systole</th><th scope=\"col\">P1</th><th scope=\"col\">P2</th><th "
       "scope=\"col\">P3</th>"
       "<th scope=\"col\">P4</th></tr>";
-  const char* caption =
+  std::string caption =
       "Over the last whole beat. Pressure is the mean over the section at mid-length; change is the largest "
-      "minus "
-      "the smallest inner radius; systole is the peak of the inflow; P1 lies on the inner, P4 on the outer "
+      "minus the smallest inner radius; systole is the peak of the inflow; P1 lies on the inner, P4 on the "
+      "outer "
       "surface.";
+  if (std::any_of(runs.begin(), runs.end(), [](const RunSummary& run) { return run.is_state; }))
+    caption += " Of a static state: its values, and whether fibres are recruited.";
   return table(caption, head, body);
 }
 
-std::string claims_section(const std::vector<StoredResult>& runs) {
-  const verification::Comparison comparison = verification::compare_with_paper(runs);
+std::string claims_section(const std::vector<StoredResult>& stored, const std::vector<RunSummary>& runs) {
+  std::vector<std::string> names;
+  for (const RunSummary& run : runs) names.push_back(run.label);
+  const verification::Comparison comparison = verification::compare_with_paper(stored, names);
   std::string text;
   if (!comparison.rows.empty()) {
     std::string body;
@@ -132,21 +169,24 @@ std::string claims_section(const std::vector<StoredResult>& runs) {
       body += "<tr>" + (span > 0 ? claim_cells(row, span) : std::string());
       body += fmt::format(
           "<td class=\"text\">{}</td><td class=\"verdict {}\"><span aria-hidden=\"true\">{}</span> "
-          "{}</td><td class=\"text\">{}</td><td class=\"text\"><small>{}</small></td></tr>",
+          "{}</td><td class=\"text\">{}</td><td class=\"text\">{}</td></tr>",
           row.ours.empty() ? "–" : escape(row.ours), look(row.verdict).css_class, look(row.verdict).mark,
-          escape(verification::to_text(row.verdict)), escape(row.reading), escape(row.note));
+          escape(verification::to_text(row.verdict)), escape(row.reading),
+          row.note.empty() ? "" : fmt::format("<small>{}</small>", escape(row.note)));
     }
-    text += verdict_counts(rows);
+    text += readings_sentence(rows) + verdict_counts(rows);
     text += table(
-        "Each claim on the paper's straight artery beside these runs, with the reading of what the paper "
+        "Each claim on the paper's arteries beside these runs, with the reading of what the paper "
         "misprints "
         "or leaves open. A number agrees when it lies within the tolerance printed below the paper's.",
         "<tr><th scope=\"col\">Claim</th><th scope=\"col\">Paper</th><th scope=\"col\">Ours</th>"
         "<th scope=\"col\">Verdict</th><th scope=\"col\">Reading</th><th scope=\"col\">Remarks</th></tr>",
         body);
   }
-  for (const std::string& line : comparison.left_out)
-    text += fmt::format("<p class=\"note\">Not compared: {}</p>\n", escape(line));
+  std::string items;
+  for (const std::string& line : comparison.left_out) items += fmt::format("<li>{}</li>", escape(line));
+  if (!items.empty())
+    text += fmt::format("<p class=\"note\">Not compared:</p>\n<ul class=\"note\">{}</ul>\n", items);
   return text;
 }
 
@@ -182,6 +222,44 @@ std::string events_section(const std::vector<RunSummary>& runs) {
 
 namespace {
 
+/// The lines that records hold at a key, each once, with the names of the runs that have it unless all do.
+std::string lines_of_runs(const std::vector<RunSummary>& runs, const char* key) {
+  std::vector<std::pair<std::string, std::vector<std::string>>> lines;
+  for (const RunSummary& run : runs) {
+    const auto own = run.stored->record.find(key);
+    if (own == run.stored->record.end() || !own->is_array()) continue;
+    for (const auto& entry : *own) {
+      if (!entry.is_string()) continue;
+      const auto line = entry.get<std::string>();
+      auto known =
+          std::find_if(lines.begin(), lines.end(), [&](const auto& one) { return one.first == line; });
+      if (known == lines.end()) known = lines.insert(lines.end(), {line, {}});
+      known->second.push_back(run.label);
+    }
+  }
+  std::string items;
+  for (const auto& [line, names] : lines)
+    items += fmt::format(
+        "<li>{}{}</li>", escape(line),
+        names.size() == runs.size()
+            ? ""
+            : fmt::format(" <small>({})</small>", escape(fmt::format("{}", fmt::join(names, "; ")))));
+  return items;
+}
+
+}  // namespace
+
+std::string remarks_section(const std::vector<RunSummary>& runs) {
+  std::string text;
+  if (const std::string findings = lines_of_runs(runs, "findings"); !findings.empty())
+    text += fmt::format("<ul class=\"findings\">{}</ul>\n", findings);
+  if (const std::string remarks = lines_of_runs(runs, "remarks"); !remarks.empty())
+    text += fmt::format("<details><summary>Remarks</summary><ul class=\"note\">{}</ul></details>\n", remarks);
+  return text;
+}
+
+namespace {
+
 /// Any table of the results as it is, in CGS.
 std::string plain_table(const char* caption, const Table& source) {
   if (source.rows() == 0) return "";
@@ -209,6 +287,7 @@ std::string record_list(const nlohmann::ordered_json& record) {
   std::string items;
   for (const auto& [key, value] : record.items()) {
     if (key == "scene" || key == "scene_set" || key == "scene_toml") continue;
+    if (key == "remarks" || key == "findings") continue;  // they stand below the key numbers
     const std::string text =
         value.is_string() ? value.get<std::string>()
                           : value.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
@@ -217,10 +296,30 @@ std::string record_list(const nlohmann::ordered_json& record) {
   return fmt::format("<dl class=\"record\">{}</dl>\n", items);
 }
 
+/// The keys in which runs differ, with their whole names and values, and each run's folder.
+std::string differences_table(const std::vector<RunSummary>& runs) {
+  std::vector<StoredResult> stored;
+  for (const RunSummary& run : runs) stored.push_back({run.stored->folder, run.stored->record, {}});
+  const std::vector<Difference> differences = differences_of(stored);
+  std::string head = "<tr><th scope=\"col\">Run</th>";
+  for (const Difference& difference : differences)
+    head += fmt::format("<th scope=\"col\">{}</th>", escape(difference.key));
+  head += "<th scope=\"col\">Scene</th><th scope=\"col\" class=\"text\">Folder</th></tr>";
+  std::string body;
+  for (std::size_t index = 0; index < runs.size(); ++index) {
+    body += "<tr>" + run_header(runs[index], index);
+    for (const Difference& difference : differences)
+      body += fmt::format("<td>{}</td>", escape(difference.values[index]));
+    body += fmt::format("<td>{}</td><td class=\"text\">{}</td></tr>", escape(runs[index].name),
+                        escape(stored[index].folder.string()));
+  }
+  return table("The keys in which these scenes differ.", head, body);
+}
+
 }  // namespace
 
 std::string runs_section(const std::vector<RunSummary>& runs) {
-  std::string text;
+  std::string text = runs.size() > 1 ? differences_table(runs) : "";
   for (std::size_t index = 0; index < runs.size(); ++index) {
     const RunSummary& run = runs[index];
     const std::string scene = record_text(run.stored->record, "scene_toml");

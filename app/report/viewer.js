@@ -159,7 +159,8 @@ const Viewer = (() => {
   const runs = JSON.parse(document.getElementById("scene").textContent).runs;
   const renderer = new THREE.WebGLRenderer({canvas, context, antialias: true, alpha: true});
   const view = ViewerCamera(canvas, () => ask());
-  const state = {run: 0, part: "", field: "", time: 0, cut: false, scale: 1, shaded: true};
+  // lowest and highest are typed limits, which the field has that they were typed for.
+  const state = {run: 0, part: "", field: "", time: 0, cut: false, scale: 1, shaded: true, range: "all", lowest: NaN, highest: NaN};
   let bodies = [], frame = -1, playing = 0, waiting = 0;
 
   const ask = () => { waiting ||= requestAnimationFrame(draw); };
@@ -178,18 +179,44 @@ const Viewer = (() => {
     const [part, name] = [state.field.slice(0, state.field.indexOf("/")), state.field.slice(state.field.indexOf("/") + 1)];
     return {part, field: fieldsOf(part).find(field => field.name === name)};
   };
-  // Of all times and all runs, so that a colour is the same number everywhere.
-  const rangeOf = (part, name, key) => {
-    const ranges = runs.flatMap(run => run.parts.filter(one => one.name === part)
+  // Of all times and all runs, so that a colour is the same number everywhere; `of` may be this run's alone.
+  const rangeOf = (part, name, key, of = runs) => {
+    const ranges = of.flatMap(run => run.parts.filter(one => one.name === part)
       .flatMap(one => one.fields.filter(field => field.name === name).map(field => field[key])));
     return [Math.min(...ranges.map(range => range[0])), Math.max(...ranges.map(range => range[1]))];
   };
+  const rangeAt = (field, frame) => {
+    const count = codes(field).length / runs[state.run].times.length;
+    let lowest = Infinity, highest = -Infinity;
+    for (let place = 0; place < count; ++place) {
+      const value = valueAt(field, frame * count + place);
+      if (value < lowest) lowest = value;
+      if (value > highest) highest = value;
+    }
+    return lowest <= highest ? [lowest, highest] : [0, 1];
+  };
+  const isTyped = () => state.range === "typed" && state.lowest < state.highest;
+  // The ends of the colours, and of the values that are there to be coloured.
+  function ranges() {
+    const {part, field} = chosen();
+    if (!field) return {colours: [0, 1], whole: [0, 1]};
+    if (state.range === "time") return {colours: rangeAt(field, frame), whole: rangeAt(field, frame)};
+    const of = state.range === "run" ? [runs[state.run]] : runs;
+    return {colours: isTyped() ? [state.lowest, state.highest] : rangeOf(part, field.name, "colours", of),
+            whole: rangeOf(part, field.name, "range", of)};
+  }
   const text = (value, width) => Math.abs(value) < 1e-6 * width ? "0" : Number(value.toPrecision(3)).toString().replace("-", "\u2212");
+
+  // "1.011 s, 0.211 s in the beat"
+  const timeText = () => {
+    const {beat} = runs[state.run], within = beat ? state.time - beat[0] : -1;
+    return `${state.time.toFixed(3)} s${beat && beat[0] > 0 && within > -1e-9 ? `, ${Math.max(0, within).toFixed(3)} s in the last beat` : ""}`;
+  };
 
   function label() {
     const {part, field} = chosen();
     if (!field) return;
-    const [lowest, highest] = rangeOf(part, field.name, "colours"), whole = rangeOf(part, field.name, "range");
+    const {colours: [lowest, highest], whole} = ranges();
     const title = `${field.label} in the ${part}${field.unit ? `, ${field.unit}` : ""}${field.has_gaps ? " (grey: none)" : ""}`;
     const ticks = [0, .25, .5, .75, 1].map(share => text(lowest + share * (highest - lowest), highest - lowest));
     if (whole[0] < lowest) ticks[0] = `\u2264 ${ticks[0]}`;
@@ -197,7 +224,7 @@ const Viewer = (() => {
     at("quantity").textContent = title;
     at("ticks").replaceChildren(...ticks.map(tick => element("span", {}, tick)));
     at("legend").setAttribute("aria-label", `Colours: ${title}, from ${ticks[0]} to ${ticks[4]}`);
-    const clock = `t = ${state.time.toFixed(3)} s${state.scale === 1 ? "" : `, displacement × ${state.scale}`}`;
+    const clock = `t = ${timeText()}${state.scale === 1 ? "" : `, displacement × ${state.scale}`}`;
     at("clock").textContent = clock;
     canvas.setAttribute("aria-label", `The artery in space, ${state.part}${state.cut ? ", cut open" : ""}, ${clock}, coloured by ${title}`);
   }
@@ -218,6 +245,13 @@ const Viewer = (() => {
     select.value = value;
   }
 
+  // A run without a stored time near its peak flow, or without flow, has none.
+  const peakOf = run => {
+    if (!Number.isFinite(run.peak)) return null;
+    const closest = run.times.reduce((best, time) => Math.abs(time - run.peak) < Math.abs(best - run.peak) ? time : best);
+    return Math.abs(closest - run.peak) <= .01 * run.beat[1] ? closest : null;
+  };
+
   function changeRun() {
     for (const body of bodies) body.dispose();
     bodies = runs[state.run].parts.map(part => new Body(part));
@@ -237,6 +271,7 @@ const Viewer = (() => {
       return group;
     }), state.field);
     at("time").max = runs[state.run].times.length - 1;
+    at("peak").hidden = peakOf(runs[state.run]) === null;
     const boxes = bodies.map(body => body.box());
     view.frame(bodies.flatMap(body => body.outline()), [0, 1, 2, 3, 4, 5].map(k => Math[k < 3 ? "min" : "max"](...boxes.map(box => box[k]))));
   }
@@ -262,7 +297,18 @@ const Viewer = (() => {
     frame = frameAt(state.time);
     state.time = runs[state.run].times[frame];
     const {part, field} = chosen();
-    const range = field ? rangeOf(part, field.name, "colours") : [0, 1];
+    if (state.field !== before.field && wanted.lowest === undefined) {
+      // Limits mean nothing for another field.
+      state.lowest = state.highest = NaN;
+      if (state.range === "typed") state.range = "all";
+    }
+    // Typing begins with the limits that are shown.
+    if (state.range === "typed" && Number.isNaN(state.lowest) && Number.isNaN(state.highest)) {
+      state.range = before.range === "typed" ? "all" : before.range;
+      [state.lowest, state.highest] = ranges().colours;
+      state.range = "typed";
+    }
+    const {colours: range} = ranges();
     for (const body of bodies) {
       body.show(isShown(body.part.name), state.cut, state.shaded);
       body.deform(frame, state.scale);
@@ -270,12 +316,18 @@ const Viewer = (() => {
     }
     at("run").value = String(state.run);
     at("field").value = state.field;
+    at("range").value = state.range;
+    at("limits").hidden = state.range !== "typed";
+    for (const name of ["lowest", "highest"]) {
+      if (document.activeElement !== at(name)) at(name).value = Number.isNaN(state[name]) ? "" : String(Number(state[name].toPrecision(4)));
+      at(name).setAttribute("aria-invalid", String(state.range === "typed" && !isTyped()));
+    }
     at("cut").checked = state.cut;
     at("scale").value = String(state.scale);
     at("scale-shown").textContent = String(state.scale);
     at("time").value = String(frame);
-    at("time").setAttribute("aria-valuetext", `${state.time.toFixed(3)} s`);
-    at("time-shown").textContent = `${state.time.toFixed(3)} s`;
+    at("time").setAttribute("aria-valuetext", timeText());
+    at("time-shown").textContent = timeText();
     const radio = at("parts").querySelector(`input[value="${state.part}"]`);
     if (radio) radio.checked = true;
     at("pointer").textContent = "";
@@ -295,12 +347,20 @@ const Viewer = (() => {
 
   fill(at("run"), runs.map((run, index) => element("option", {value: index}, run.label)), "0");
   at("runs").hidden = runs.length < 2;
+  if (runs.length < 2) {
+    at("range").querySelector("[value=run]").remove();
+    at("range").querySelector("[value=all]").textContent = "all times";
+  }
   at("run").addEventListener("change", event => show({run: Number(event.target.value)}));
   at("field").addEventListener("change", event => show({field: event.target.value}));
+  at("range").addEventListener("change", event => show({range: event.target.value}));
+  for (const name of ["lowest", "highest"])
+    at(name).addEventListener("input", event => show({range: "typed", [name]: event.target.value === "" ? NaN : Number(event.target.value)}));
   at("cut").addEventListener("change", event => show({cut: event.target.checked}));
   at("scale").addEventListener("input", event => show({scale: Number(event.target.value)}));
   at("time").addEventListener("input", event => { play(false); show({time: runs[state.run].times[event.target.value]}); });
   at("play").addEventListener("click", () => play(!playing));
+  at("peak").addEventListener("click", () => { play(false); show({time: peakOf(runs[state.run])}); });
   at("home").addEventListener("click", () => view.home());
   canvas.addEventListener("pointermove", event => { if (!event.buttons) read(event); });
   canvas.addEventListener("pointerleave", () => { at("pointer").textContent = ""; });
@@ -310,9 +370,11 @@ const Viewer = (() => {
   if (address.has("still")) page.classList.add("still");
   const asked = {};
   for (const [key, value] of address)
-    if (["run", "time", "scale"].includes(key) && Number.isFinite(Number(value))) asked[key] = Number(value);
+    if (["run", "time", "scale", "lowest", "highest"].includes(key) && Number.isFinite(Number(value))) asked[key] = Number(value);
     else if (["cut", "shaded"].includes(key)) asked[key] = value !== "0";
     else if (["part", "field"].includes(key)) asked[key] = value;
+    else if (key === "range" && ["all", "run", "time", "typed"].includes(value)) asked.range = value;
+  if (asked.lowest < asked.highest) asked.range = "typed";
   const resize = () => {
     const {clientWidth: width, clientHeight: height} = holder;
     renderer.setPixelRatio(Math.min(2, devicePixelRatio));
@@ -322,7 +384,7 @@ const Viewer = (() => {
   };
   new ResizeObserver(resize).observe(holder);
   addEventListener("beforeprint", draw);
-  // The picture begins where the displacement is largest: there is something to see.
+  // The picture begins at peak flow, as the paper's do, or else where the displacement is largest.
   const largest = run => {
     const values = (run.parts.find(part => part.name === "wall") || run.parts[0]).fields.find(field => field.name === "displacement");
     if (!values) return 0;
@@ -330,7 +392,7 @@ const Viewer = (() => {
     const sums = run.times.map((_, k) => all.subarray(k * count, (k + 1) * count).reduce((sum, code) => sum + code, 0));
     return run.times[sums.indexOf(Math.max(...sums))];
   };
-  state.time = largest(runs[0]);
+  state.time = peakOf(runs[0]) ?? largest(runs[0]);
   show(asked);
   view.look(address);
   resize();

@@ -98,6 +98,135 @@ class Report(unittest.TestCase):
         self.assertEqual(len(notes), 5)
         self.assertTrue(all("no fibres" in note for note in notes), notes)
 
+    def cells(self, selector):
+        """Text of the cells of each row of a table's body."""
+        return self.value(f"""[...document.querySelectorAll('{selector} tbody tr')]
+            .map(row => [...row.cells].map(cell => cell.textContent))""")
+
+    def test_static_states_have_values_and_points(self):
+        self.opens("states", 8)
+        self.assertTrue(self.value("document.getElementById('beat-section').hidden"))
+        rows = self.cells("section[aria-labelledby=states] .scroll")
+        self.assertEqual(len(rows), 12)
+        # The made-up peak: pressure as asked for, 15 mmHg across the wall, and 0.020 cm falling by a fifth.
+        self.assertEqual(rows[0], ["EXP1+EXP2-FS, pressure\u00a080\u00a0mmHg", "80.00", "15.00", "P1", "0.020000",
+                                   "33.32", "1.3000", "1.000", "6.400"])
+        self.assertEqual(rows[3], ["P4", "0.016000", "35.70", "1.2250", "1.000", "4.480"])
+        self.assertEqual(rows[8][3:], ["P1", "0.020000", "\u2013", "\u2013", "\u2013", "8.000"])
+        # No fibres are denied to those that have some.
+        shares = [row[-4:] for row in self.cells("section[aria-labelledby=numbers] .scroll")]
+        self.assertEqual(shares[:2], [["on"] * 4] * 2)
+        self.assertEqual(shares[2][-1], "no fibres")
+        # Each point is a dot, which a line alone would not make.
+        for chart, lines in (("displacement", 3), ("angle", 2), ("stretch", 2), ("recruitment", 2), ("mises", 3)):
+            self.assertEqual(self.value(f"document.querySelectorAll('#chart-state-{chart} .legend tr').length"), lines)
+        self.assertIn("Not shown: EXP1, pressure\u00a0100\u00a0mmHg (no fibres).", self.value("document.getElementById('chart-state-angle').textContent"))
+        self.assertGreater(self.dots("chart-state-displacement"), 8 * 5)  # four lie below others
+
+    def dots(self, figure):
+        """Pixels of a chart that have the colour of its lines all around them, as in a dot and in no line."""
+        return self.value(f"""(() => {{
+            const canvas = document.querySelector('#{figure} canvas'), {{width, height}} = canvas;
+            const pixels = new Uint32Array(canvas.getContext('2d').getImageData(0, 0, width, height).data.buffer);
+            const paint = ['--c0', '--c1', '--c2'].map(name => {{
+                const [r, g, b] = getComputedStyle(document.documentElement).getPropertyValue(name).trim().match(/\\w\\w/g).map(text => parseInt(text, 16));
+                return (255 << 24 | b << 16 | g << 8 | r) >>> 0; }});
+            let count = 0;
+            for (let y = 2; y < height - 2; ++y) for (let x = 2; x < width - 2; ++x) {{
+                const own = pixels[y * width + x];
+                if (!paint.includes(own)) continue;
+                let all = true;
+                for (let dy = -1; dy <= 1; ++dy) for (let dx = -1; dx <= 1; ++dx) all &&= pixels[(y + dy) * width + x + dx] === own;
+                count += all;
+            }}
+            return count;
+        }})()""")
+
+    def test_a_state_beside_a_run_has_its_values_and_the_run_its_curves(self):
+        self.opens("mixed", 18)
+        self.assertEqual(len(self.cells("section[aria-labelledby=states] .scroll")), 4)
+        legend = self.value("document.querySelector('#chart-pressure .legend').textContent")
+        self.assertNotIn("static", legend)
+        self.assertEqual(self.value("document.querySelectorAll('#run-list button')[0].textContent"),
+                         "inlet\u00a0pressure, time\u00a0static, pressure\u00a080\u00a0mmHg")
+
+    def test_runs_are_named_by_what_differs(self):
+        self.opens("ten", 13)
+        names = self.value("[...document.querySelectorAll('#run-list button')].map(button => button.textContent)")
+        self.assertEqual(names[:5], [f"resistance\u00a0{value}\u00a0dyn\u00a0s/cm5" for value in ("2e5", "4e5", "6e5", "8e5", "1e6")])
+        self.assertEqual(len(set(names)), 10)
+        self.assertEqual(self.value("document.querySelector('.subtitle').textContent"), "10 runs \u00b7 EXP1+EXP2-FS \u00b7 lumped tier")
+        colours = self.value("[...document.querySelectorAll('#run-list .swatch')].map(swatch => getComputedStyle(swatch).backgroundColor)")
+        self.assertEqual(len(set(colours)), 10)
+        # The folder is a detail.
+        differing = self.cells("section[aria-labelledby=runs] > .scroll")
+        self.assertEqual(differing[9], [names[9], "2e6\u00a0dyn\u00a0s/cm5", "cylinder", "results/sweeps/of/the/outlets/resistance/run-10"])
+        self.assertNotIn("sweeps", self.value("document.querySelector('section[aria-labelledby=numbers]').textContent"))
+        left_out = self.value("document.querySelector('section[aria-labelledby=paper]').textContent")
+        self.assertIn(f"{names[0]}: not one of the paper's arteries", left_out)
+
+    def unreachable(self):
+        """Cells of tables that are not wholly within the window, or within a box that would have to be scrolled, and
+        values whose head is neither above nor beside them."""
+        return self.value("""[...document.querySelectorAll('details')].forEach(details => { details.open = true; }) ||
+            new Promise(resolve => setTimeout(() => resolve([...document.querySelectorAll('.scroll, .legend')].flatMap(box => {
+                const bounds = box.getBoundingClientRect(), narrow = box.classList.contains('narrow');
+                return [...box.querySelectorAll(narrow ? 'tbody th, tbody td' : 'th, td')].filter(cell => {
+                    const place = cell.getBoundingClientRect();
+                    const outside = place.width > 0 && (place.left < bounds.left - 1 || place.right > Math.min(bounds.right, innerWidth) + 1);
+                    const nameless = narrow && box.className.includes('scroll') && cell.tagName === 'TD' && !cell.dataset.head;
+                    return outside || nameless || cell.scrollWidth > cell.clientWidth + 1;
+                }).map(cell => `${box.className}: ${cell.textContent}`);
+            })), 300))""")
+
+    def test_every_column_is_reached_at_any_width(self):
+        widths = {"one": (390,), "four": (390, 1280), "ten": (320, 390, 768, 1280), "states": (390,), "verify": (390, 1280)}
+        for name, all_widths in widths.items():
+            for width in all_widths:
+                self.browser.resize(width, 900)
+                self.browser.open(report(name))
+                self.assertEqual(self.unreachable(), [], f"{name} at {width}")
+                self.assertEqual(self.value("document.documentElement.scrollWidth"), width)
+
+    def test_a_table_with_room_is_a_table(self):
+        for name in ("four", "ten"):
+            self.browser.resize(1280, 900)
+            self.browser.open(report(name))
+            self.assertEqual(self.value("document.querySelectorAll('.scroll.narrow, .legend.narrow').length"), 0, name)
+        # And becomes one again.
+        self.browser.resize(390, 900)
+        time.sleep(0.3)
+        self.assertGreater(self.value("document.querySelectorAll('.scroll.narrow').length"), 0)
+        heads = self.value("[...document.querySelector('section[aria-labelledby=numbers] tbody tr').cells].map(cell => cell.dataset.head)")
+        self.assertEqual(heads[1:4], ["Pressure mmHg", "Transmural mmHg", "Inner radius, % of R0: change"])
+        self.assertEqual(heads[-1], "Fibres recruited, % of the beat: P4")
+        self.browser.resize(1280, 900)
+        time.sleep(0.3)
+        self.assertEqual(self.value("document.querySelectorAll('.scroll.narrow, .legend.narrow').length"), 0)
+
+    def test_the_paper_is_beside_with_its_readings(self):
+        self.browser.open(report("four"))
+        section = "document.querySelector('section[aria-labelledby=paper]')"
+        lines = self.value(f"[...{section}.children].map(child => child.tagName)")
+        self.assertLess(lines.index("P"), lines.index("UL"))
+        sentence = self.value(f"{section}.querySelector('p').textContent")
+        self.assertIn("lumped, tether\u00a0normal, a\u00b2\u00a0=\u00a01.6740, exponent\u00a02", sentence)
+        self.assertIn("docs/reproduction.md", sentence)
+        wrong = self.value(f"{section}.querySelector('.counts .disagrees b').textContent")
+        self.assertIn(f"{wrong} answers disagree under this reading", sentence)
+        # A torus has numbers of its own.
+        self.browser.open(report("peak"))
+        cells = self.cells("section[aria-labelledby=paper] .scroll")
+        # Its one beat begins at rest.
+        self.assertEqual([cells[k][2] for k in (0, 1)], ["EXP2\u00a00.0 mmHg", "EXP2\u00a0130.0 mmHg"])
+        self.assertEqual([cells[k][3] for k in (0, 1)], ["\u2717 disagrees", "\u2713 agrees"])
+
+    def test_verdicts_stand_first(self):
+        self.browser.open(report("verify"))
+        section = "document.querySelector('section[aria-labelledby=compared]')"
+        first = self.value(f"{section}.querySelector('h2').nextElementSibling.textContent")
+        self.assertRegex(first, r"^low against high differs by the model \(explained\): \d+ quantities agree, \d+ differ by the model, 0 disagree")
+
     def test_runs_with_other_output_times_share_charts(self):
         self.opens("grids", 13)
 

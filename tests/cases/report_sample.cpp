@@ -11,6 +11,7 @@
 
 using namespace tunica;
 using test_support::synthetic_run;
+using test_support::synthetic_state;
 
 namespace {
 
@@ -39,6 +40,30 @@ StoredResult hostile() {
 
 StoredResult finer_in_time() {
   return synthetic_run({.name = "fine", .interval = 0.0007});
+}
+
+/// Runs that one key tells apart.
+std::vector<StoredResult> ten() {
+  std::vector<StoredResult> runs;
+  for (int k = 1; k <= 10; ++k) {
+    StoredResult run = synthetic_run({.lowest_pressure = 60.0 + 5 * k, .highest_pressure = 110.0 + 5 * k});
+    run.folder = "results/sweeps/of/the/outlets/resistance/run-" + std::to_string(k);
+    run.record["scene"]["outlet.resistance"] = 2e5 * k;
+    run.record["scene_set"].push_back("outlet.resistance");
+    runs.push_back(std::move(run));
+  }
+  return runs;
+}
+
+/// A bent artery of one beat with a picture at peak flow.
+StoredResult with_peak() {
+  StoredResult run = synthetic_run({.law = "EXP2", .beats = 1});
+  run.record["tier"] = "full3d";
+  run.record["scene"]["geometry.kind"] = "torus";
+  run.record["scene_set"].push_back("geometry.kind");
+  run.result.fields = test_support::bent_tube({});
+  for (auto& series : run.result.fields) series.frames[2].time = 0.2112;
+  return run;
 }
 
 /// Made-up curves whose pressure and displacement are larger by so many parts.
@@ -85,6 +110,14 @@ int main(int count, char** arguments) {
   write_whole(folder / "length.html",
               make_report({synthetic_run({.with_length = true}), synthetic_run({.law = "EXP1"})}));
   write_whole(folder / "isotropic.html", make_report({synthetic_run({.law = "EXP1"})}));
+  write_whole(folder / "ten.html", make_report(ten()));
+  const std::vector<StoredResult> states{
+      synthetic_state({.law = "EXP1+EXP2-FS", .highest_pressure = 80}),
+      synthetic_state({.law = "EXP1+EXP2-FS", .highest_pressure = 100, .displacement_scale = 0.022}),
+      synthetic_state({.law = "EXP1", .highest_pressure = 100})};
+  write_whole(folder / "states.html", make_report(states));
+  write_whole(folder / "mixed.html", make_report({states[0], synthetic_run({})}));
+  write_whole(folder / "peak.html", make_report({with_peak()}));
   write_whole(folder / "hostile.html", make_report({hostile()}));
   write_whole(folder / "grids.html", make_report({synthetic_run({.law = "EXP1"}), finer_in_time()}));
   write_whole(folder / "space.html", make_report({in_space("EXP1+EXP2-FS", {})}));

@@ -215,6 +215,48 @@ class Viewer(unittest.TestCase):
         self.assertIn("Displacement in the wall", self.bar())
         self.quiet()
 
+    def test_it_begins_at_peak_flow(self):
+        self.opens("peak")
+        self.assertAlmostEqual(self.value("Viewer.state.time"), 0.2112)
+        self.assertEqual(self.value("document.getElementById('viewer-time-shown').textContent"), "0.211 s")
+        self.sets("time", 7, "input")
+        self.assertAlmostEqual(self.value("Viewer.state.time"), 0.7)
+        self.value("document.getElementById('viewer-peak').click()")
+        self.assertAlmostEqual(self.value("Viewer.state.time"), 0.2112)
+        # Without a picture at that time there is no such button.
+        self.opens("space")
+        self.assertTrue(self.value("document.getElementById('viewer-peak').hidden"))
+        self.quiet()
+
+    def test_the_colours_limits_can_be_set(self):
+        self.opens("space", "part=blood&field=blood/velocity&time=0.2")
+        # Largest on the axis: 20 + 40 sin^2(pi/4) = 40 cm/s at this time, 60 cm/s at 0.4 s.
+        self.assertRegex(self.bar(), "from 0 to .* 59|from 0 to 60")
+        whole = self.picture("{}")
+        self.sets("range", "time", "change")
+        self.assertIn("from 0 to 40", self.bar())
+        self.assertNotEqual(self.picture("{}"), whole)
+        self.sets("range", "typed", "change")
+        self.assertFalse(self.value("document.getElementById('viewer-limits').hidden"))
+        self.assertEqual(self.value("[...document.querySelectorAll('#viewer-limits input')].map(input => input.value)"), ["0", "40"])
+        self.sets("lowest", 10, "input")
+        self.sets("highest", 20, "input")
+        self.assertIn("from \u2264 10 to \u2265 20", self.bar())
+        # The other way round they are marked, and the colours are those of all times.
+        self.sets("highest", 5, "input")
+        self.assertEqual(self.value("document.getElementById('viewer-highest').getAttribute('aria-invalid')"), "true")
+        self.assertNotIn("10", self.bar())
+        # Pressure is 100 mmHg everywhere: the middle of 50 to 150 has the colour of viridis' middle, 21918c.
+        self.opens("space", "part=blood&field=blood/pressure&time=0.2&lowest=50&highest=150&shaded=0")
+        colours = self.picture("{}")
+        seen = max((key for key in colours if key.endswith(",255")), key=colours.get)
+        for channel, wanted in zip(seen.split(","), (0x21, 0x90, 0x8c)):
+            self.assertAlmostEqual(int(channel), wanted, delta=4)
+        # Limits of a pressure are none for a velocity.
+        self.sets("field", "blood/velocity", "change")
+        self.assertEqual(self.value("Viewer.state.range"), "all")
+        self.quiet()
+
     def test_two_beats_of_3000_cells_are_within_15_megabytes(self):
         self.assertLess(os.path.getsize(report("large")), 15e6)
         self.opens("large")

@@ -196,4 +196,25 @@ StoredResult synthetic_run(const SyntheticRun& wanted) {
   return stored;
 }
 
+StoredResult synthetic_state(const SyntheticRun& wanted) {
+  StoredResult stored = synthetic_run(wanted);
+  const bool fibers = wanted.law.find("+EXP2") != std::string::npos;
+  Result& result = stored.result;
+  result.observables = standard_table();
+  Sample sample = sample_at((wanted.beats - 1) * period + peak, wanted, fibers);
+  sample.time = 0;
+  sample.inflow = sample.outflow = none;
+  append(result.observables, sample);
+  const std::size_t kept = 41;
+  for (std::size_t column = 0; column < result.profiles.columns().size(); ++column)
+    result.profiles[column].values.resize(kept);
+  result.profiles[0].values.assign(kept, 0.0);
+  result.events = event_table();
+  stored.record["scene"]["time.mode"] = "static";
+  stored.record["scene"]["inlet.waveform"] = "pressure";
+  stored.record["scene"]["inlet.pressure"] = wanted.highest_pressure * mmhg;
+  stored.record["scene_set"] = {"wall.law", "time.mode", "inlet.waveform", "inlet.pressure"};
+  return stored;
+}
+
 }  // namespace tunica::test_support

@@ -28,6 +28,10 @@ struct SyntheticRun {
 /// 0.35, 0.65, 0.90.
 StoredResult synthetic_run(const SyntheticRun& wanted);
 
+/// A static state as read_result would return it: the single row of such a run at its peak, at 0 s, with the
+/// profile there.
+StoredResult synthetic_state(const SyntheticRun& wanted);
+
 /// The thresholds of s above.
 inline constexpr double synthetic_thresholds[4] = {0.05, 0.35, 0.65, 0.90};
 
