@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -143,6 +144,26 @@ TEST(ReportScene, StaysWithinItsBudget) {
   const auto none = scene_3d(summarize(runs), 1000);
   EXPECT_TRUE(none.json.empty());
   EXPECT_NE(viewer_section(none).find("too many cells"), std::string::npos);
+}
+
+TEST(ReportScene, PeakFlowIsShownHoweverFewTimesAre) {
+  StoredResult run = synthetic_run({.beats = 1});
+  run.result.fields = bent_tube({.frames = 17});
+  for (auto& series : run.result.fields) series.frames[5].time = 0.2112;
+  const auto budget =
+      static_cast<std::size_t>(0.3 * static_cast<double>(scene_3d(summarize({run})).json.size()));
+  const auto scene = scene_of({run}, budget)["runs"][0];
+  const auto times = scene["times"].get<std::vector<double>>();
+  EXPECT_LT(times.size(), 17U);
+  EXPECT_EQ(std::count(times.begin(), times.end(), 0.2112), 1);
+  EXPECT_NEAR(scene["peak"].get<double>(), 0.2112, 1e-5);
+  EXPECT_EQ(scene["beat"], nlohmann::json({0.0, 0.8}));
+  // Each time has its values: 2 bytes for each component of each place.
+  const auto& part = scene["parts"][0];
+  const std::size_t places = part["points"].get<std::string>().size() / 4 * 3 / 12;
+  const std::size_t bytes = part["displacement"]["data"].get<std::string>().size() / 4 * 3;
+  EXPECT_NEAR(static_cast<double>(bytes), 6.0 * static_cast<double>(places * times.size()),
+              6.0 * static_cast<double>(times.size()));
 }
 
 TEST(ReportScene, FieldsComeFromTheRunsFolderToo) {

@@ -259,6 +259,9 @@ TEST(CrossTier, ATierThatRefusesTheSceneIsToldBeforeAnythingIsComputed) {
 TEST(CrossTier, TextIsNarrowAndJsonComplete) {
   for (const char* law : {"EXP1", "EXP1+EXP2-FS"}) {
     const CrossTier found = verify_made({}, ladder(), scene_with({std::string("wall.law=") + law}));
+    // The verdict stands first, before rows that push it out of sight.
+    const std::string verdict = found.scene + ": low against high differs by the model (explained): ";
+    EXPECT_EQ(to_text(found).find(verdict.substr(0, verdict.size() - 2)), 0U) << to_text(found);
     std::istringstream text(to_text(found));
     for (std::string line; std::getline(text, line);) EXPECT_LE(columns(line), 80U) << line;
     const auto json = to_json(found);
