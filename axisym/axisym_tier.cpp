@@ -6,6 +6,7 @@
 #include "axisym/observer.hpp"
 #include "axisym/remarks.hpp"
 #include "axisym/tangent_stability.hpp"
+#include "core/coupled/gmsh_parts.hpp"
 #include "core/coupled/vessel_run.hpp"
 #include "core/element/gmsh_file.hpp"
 #include "core/error.hpp"
@@ -59,6 +60,9 @@ class AxisymVessel final : public coupled::Vessel {
 
   std::vector<std::string> warnings() const override {
     auto warnings = remarks_on_unused_keys(scene_, *setup_);
+    if (scene_.text("geometry.kind") == "mesh")
+      if (const auto remark = coupled::radius_remark(inlet_radius(setup_->problem.mesh), scene_))
+        warnings.push_back(*remark);
     const physics::Tether& tether = setup_->problem.tether;
     const bool may_ripple = tether.traction != radial::TetherTraction::normal || tether.stiffness == 0;
     if (may_ripple && setup_->ring && scene_.text("geometry.kind") != "mesh")

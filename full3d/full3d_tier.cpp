@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "core/coupled/gmsh_parts.hpp"
 #include "core/coupled/vessel_run.hpp"
 #include "core/error.hpp"
 #include "core/scene/unused.hpp"
@@ -12,6 +13,7 @@
 #include "core/threads.hpp"
 #include "full3d/coarser_meshes.hpp"
 #include "full3d/fields.hpp"
+#include "full3d/measures.hpp"
 #include "full3d/memory.hpp"
 #include "full3d/observer.hpp"
 #include "full3d/refusal.hpp"
@@ -138,6 +140,9 @@ class Full3dVessel final : public coupled::Vessel {
     if (scene_.text("mesh.element") == "bubble")
       unused.push_back({{"mesh.mixed_wall"}, "mesh.element is \"bubble\""});
     auto warnings = scene::remarks_on(scene_, unused);
+    if (setup_->axes)
+      if (const auto remark = coupled::radius_remark(inlet_radius(setup_->problem.mesh), scene_))
+        warnings.push_back(*remark);
     const physics::Tether& tether = setup_->problem.tether;
     const bool may_ripple = tether.traction != radial::TetherTraction::normal || tether.stiffness == 0;
     if (may_ripple && !setup_->axes)

@@ -65,4 +65,9 @@ MeanTube mean_tube(const Mesh& mesh) {
   return tube;
 }
 
+double inlet_radius(const Mesh& mesh) {
+  return mesh.has(Part::blood) ? std::sqrt(surface(mesh, Boundary::inlet).area / std::numbers::pi)
+                               : mean_tube(mesh).radius;
+}
+
 }  // namespace tunica::full3d

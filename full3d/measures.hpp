@@ -26,4 +26,7 @@ struct MeanTube {
 };
 MeanTube mean_tube(const Mesh& mesh);
 
+/// Of the circle of the inlet's area or, without blood, of the mean tube, cm.
+double inlet_radius(const Mesh& mesh);
+
 }  // namespace tunica::full3d

@@ -132,10 +132,7 @@ Mesh given_mesh(const Scene& scene, bool with_blood) {
         "{}: mesh.element = \"bubble\" needs tetrahedra, and this mesh has hexahedra; mesh it with "
         "tetrahedra, or write mesh.element = \"quadratic\"",
         file.string()));
-  const double radius = mesh.has(Part::blood)
-                            ? std::sqrt(surface(mesh, Boundary::inlet).area / std::numbers::pi)
-                            : mean_tube(mesh).radius;
-  coupled::check_unit(radius, {scene.number("geometry.radius"), file.string()});
+  coupled::check_unit(inlet_radius(mesh), {scene.number("geometry.radius"), file.string()});
   return adapted(mesh, element, with_blood);
 }
 

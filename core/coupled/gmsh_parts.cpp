@@ -162,9 +162,11 @@ void check_unit(double inlet_radius, const Expected& expected) {
     const char* text;
   };
   constexpr Unit units[] = {{10, "millimetres"}, {0.01, "metres"}, {1e4, "micrometres"}};
-  constexpr double most = 50, exactly = 0.02;
+  // A radius is measured at one end of the mesh and given for all of it: a quarter more or less is no other
+  // unit.
+  constexpr double most = 50, about = 0.25;
   const double ratio = inlet_radius / expected.radius;
-  const bool in_mm = std::abs(ratio / 10 - 1) < exactly;
+  const bool in_mm = std::abs(std::log(ratio / 10)) < std::log1p(about);
   if (ratio <= most && ratio >= 1 / most && !in_mm) return;
   // The unit that brings the two radii closest together, if any does.
   const Unit* likely = nullptr;
@@ -183,6 +185,21 @@ void check_unit(double inlet_radius, const Expected& expected) {
       fmt::format("{}: the radius at the inlet is {:.4g} cm, {:.4g} times geometry.radius = {:g} cm; {}, "
                   "or set geometry.radius to the radius meant",
                   expected.label, inlet_radius, ratio, expected.radius, remedy));
+}
+
+std::optional<std::string> radius_remark(double inlet_radius, const Scene& scene) {
+  const double given = scene.number("geometry.radius");
+  constexpr double near = 2, mm_per_cm = 10, about = 1.25;
+  const double ratio = inlet_radius / given;
+  if (ratio <= near && ratio >= 1 / near) return std::nullopt;
+  const double in_mm = ratio * mm_per_cm;
+  const bool typed_in_mm = in_mm < about && in_mm > 1 / about;
+  return fmt::format(
+      "geometry.radius = {:g} cm, which the default of inlet.flow is made of, is not that of the mesh, "
+      "{:.4g} cm at "
+      "the inlet{}",
+      given, inlet_radius,
+      scene::did_you_mean(typed_in_mm ? scene::in_quotes(fmt::format("{:g} mm", given)) : ""));
 }
 
 }  // namespace tunica::coupled

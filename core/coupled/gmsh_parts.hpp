@@ -8,6 +8,7 @@
 
 #include "core/coupled/vessel.hpp"
 #include "core/element/gmsh_file.hpp"
+#include "core/scene/scene.hpp"
 
 /// What the names of physical groups in a Gmsh file mean to all tiers that read one. The cells of a mesh are
 /// in groups of its dimension: "blood" and "wall", or "wall:1", "wall:2", ... for layers from the lumen
@@ -46,7 +47,11 @@ struct Expected {
 };
 
 /// Refuses (InvalidInput) a mesh in another unit of length: its radius at the inlet is more than 50 times
-/// geometry.radius or less than a 50th of it, or within 2 % of 10 times it (mm for cm).
+/// geometry.radius or less than a 50th of it, or 10 times it (mm for cm) but for a factor of 1.25.
 void check_unit(double inlet_radius, const Expected& expected);
+
+/// A line about a mesh that passes check_unit and whose radius at the inlet is more than twice
+/// geometry.radius or less than half of it; none otherwise.
+std::optional<std::string> radius_remark(double inlet_radius, const Scene& scene);
 
 }  // namespace tunica::coupled

@@ -12,6 +12,7 @@
 #include "axisym/locate.hpp"
 #include "axisym/mesh_check.hpp"
 #include "axisym/structured.hpp"
+#include "core/coupled/gmsh_parts.hpp"
 #include "core/error.hpp"
 #include "tests/support/gmsh_model.hpp"
 #include "tests/support/mesh_measures.hpp"
@@ -270,10 +271,33 @@ TEST(LengthUnits, AreCheckedAgainstTheScene) {
   };
   for (const double radius : {0.033, 0.04, 0.02, 0.1, 0.3}) EXPECT_EQ(message(1, radius), "");
   expect(10, 0.033, "millimetres", "by 0.1 ");
+  // The inlet's radius need not be exactly that of the scene.
+  expect(10.6, 0.033, "millimetres", "by 0.1 ");
+  expect(8.2, 0.033, "millimetres", "by 0.1 ");
+  EXPECT_EQ(message(7, 0.033), "");
+  EXPECT_EQ(message(14, 0.033), "");
+  expect(0.0106, 0.033, "metres", "by 100 ");
+  expect(1.06e4, 0.033, "micrometres", "by 0.0001 ");
+  expect(0.01, 0.33, "cm", "by 1");  // metres beside a radius in millimetres: a thousandth
   expect(0.01, 0.033, "metres", "by 100 ");
   expect(0.01, 0.05, "metres", "by 100 ");
   expect(1e4, 0.033, "micrometres", "by 0.0001 ");
   expect(1, 0.0005, "cm", "by 0.0152 ");  // 66 times, which is no unit
+}
+
+TEST(LengthUnits, OfTheSceneAreRemarkedOn) {
+  const auto remark = [](const char* radius) {
+    const Scene scene =
+        parse_scene("[geometry]\n", "some.toml", ".", {std::string("geometry.radius=") + radius});
+    return coupled::radius_remark(0.033, scene);
+  };
+  for (const char* near : {"0.033", "0.05", "0.02"}) EXPECT_FALSE(remark(near)) << near;
+  for (const char* typed : {"0.33", "0.3"}) {
+    ASSERT_TRUE(remark(typed)) << typed;
+    EXPECT_NE(remark(typed)->find(std::string("did you mean \"") + typed + " mm\"?"), std::string::npos);
+  }
+  ASSERT_TRUE(remark("0.1"));
+  EXPECT_EQ(remark("0.1")->find("did you mean"), std::string::npos);
 }
 
 }  // namespace
