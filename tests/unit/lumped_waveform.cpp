@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 
 #include "tests/support/lumped_runs.hpp"
@@ -82,6 +83,31 @@ TEST(LumpedWaveform, PressureFromAFile) {
   EXPECT_EQ(inlet.scale_key, "");
   EXPECT_NEAR(inlet.shape_at(0.1), 120 * 1333.22387, 1e-6);
   EXPECT_NEAR(inlet.shape_at(1.3), 100 * 1333.22387, 1e-6);
+}
+
+// A published inflow whose diastole without flow is told by its two ends: blood never flows back, and no step
+// passes over an ejection, however quiet it was before.
+TEST(LumpedWaveform, EjectionThenNothing) {
+  const test_support::TemporaryFolder folder;
+  {
+    std::ofstream file(folder.path() / "ejection.csv");
+    file << "time[s],flow[ml/s]\n";
+    for (int k = 0; k < 15; ++k)
+      file << fmt::format("{:.2f},{:.6f}\n", 0.02 * k, 400 * std::sin(M_PI * k / 15));
+    file << "0.30,0.000000\n1.00,0\n";
+  }
+  const Result run = run_lumped(
+      {"inlet.waveform=ejection.csv", "geometry.radius=1.2", "geometry.thickness=0.2", "geometry.length=5",
+       "outlet.kind=rcr", "outlet.proximal_resistance=100", "outlet.resistance=1650",
+       "outlet.compliance=1e-3", "time.start=periodic", "time.beats=3", "output.field_interval=0"},
+      folder.path());
+  const auto &inflow = column(run.observables, "inflow"), &pressure = column(run.observables, "pressure");
+  EXPECT_EQ(*std::min_element(inflow.begin(), inflow.end()), 0);
+  EXPECT_NEAR(*std::max_element(inflow.begin(), inflow.end()), 400, 0.1);
+  // 400 x 2/pi x 0.3 ml in a beat, but for the corners at both ends of the ejection, which the curve rounds off.
+  EXPECT_NEAR(test_support::integral(inflow, inflow.size() - 1001, 1e-3), 240 / M_PI, 0.3);
+  for (std::size_t k = 0; k + 1000 < pressure.size(); ++k)
+    EXPECT_NEAR(pressure[k + 1000], pressure[k], 1e-6 * pressure[k]) << k;
 }
 
 // The artery forgets a pulse of 3 ms within some 0.1 s, so that all beats are alike. Nothing happens between
