@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/inlet.hpp"
+#include "core/observables/beat_remarks.hpp"
 #include "core/observables/inputs.hpp"
 #include "core/observables/record.hpp"
 
@@ -37,7 +39,11 @@ bool holds_whole_result(const fs::path& folder, const Scene& scene, const nlohma
 }  // namespace
 
 StoredRun::StoredRun(const Tier& tier, const Scene& scene, fs::path folder, bool resume)
-    : tier_(tier), scene_(scene), folder_(std::move(folder)), files_(input_files(scene)) {
+    : tier_(tier),
+      scene_(scene),
+      folder_(std::move(folder)),
+      files_(input_files(scene)),
+      pressure_is_given_(inlet_from_scene(scene).is_pressure) {
   if (resume) {
     if (holds_whole_result(folder_, scene, files_, tier)) return;
     if (has_checkpoint(folder_)) checkpoint_ = read_checkpoint(folder_, scene, tier.name());
@@ -62,6 +68,8 @@ Result StoredRun::execute(RunControl control, const std::function<void(const std
   };
   Result result = run_->execute(control);
   result.record.input_files = files_;
+  for (std::string& remark : observables::beat_remarks(scene_, pressure_is_given_, result))
+    result.record.findings.push_back(std::move(remark));
   return result;
 }
 

@@ -44,6 +44,7 @@ class StoredRun {
   const Scene& scene_;
   std::filesystem::path folder_;
   nlohmann::ordered_json files_;  ///< input_files when the run was set up
+  bool pressure_is_given_;        ///< at the inlet
   std::optional<Checkpoint> checkpoint_;
   std::unique_ptr<TierRun> run_;
 };

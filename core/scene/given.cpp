@@ -88,7 +88,7 @@ class Walk {
   void leaf(const Parameter& parameter, const std::string& key, const toml::node& node) {
     const std::string place = where(node);
     try {
-      given_.values[key] = {typed_value(node, parameter, key), place};
+      given_.values[key] = {typed_value(node, parameter, key), place, node.is_number()};
     } catch (const InvalidInput& error) {
       throw InvalidInput(fmt::format("{}: {}", place, error.what()));
     }

@@ -14,7 +14,8 @@ namespace tunica::scene {
 /// A value that a scene file or an override gives.
 struct GivenValue {
   Value value;
-  std::string where;  ///< "cylinder.toml, line 3", for messages
+  std::string where;      ///< "cylinder.toml, line 3", for messages
+  bool is_plain = false;  ///< a number without a unit
 };
 
 /// What a scene file and its overrides say: every key declared, every value of its kind, in CGS units

@@ -26,6 +26,11 @@ filled in. Numbers are in the unit of the table below (CGS), or text with any un
 A known key that the scene's other choices make useless (a fibre angle of an isotropic law, the compliance
 of a resistance) is no error: the run remarks on it and goes on without it. Everything else that does not
 fit is refused before any work.
+
+What fits but hardly can be meant is computed and remarked on: a number without a unit that is usual in another
+one (`pressure = 80` at the outlet, which is 0.06 mmHg; with its unit, `"80 dyn/cm2"`, it is meant), a mean
+pressure R Q + p_v outside 30 to 200 mmHg, a ramp longer than the pulse. Remarks are printed before the run and
+kept in record.json; after the run it adds what it finds of the last beat.
 )";
 
 constexpr std::string_view layers_text = R"(

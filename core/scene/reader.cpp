@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/scene/message.hpp"
+#include "core/scene/slips.hpp"
 #include "core/scene/text.hpp"
 #include "core/scene/waveform_file.hpp"
 
@@ -44,6 +45,7 @@ Scene SceneReader::read() {
   fill_derived_defaults();
   read_wall();
   check();
+  remark_on_slips();
   return std::move(scene_);
 }
 
@@ -136,9 +138,21 @@ void SceneReader::leave_out(const std::string& key, const std::string& reason) {
   if (given_.find(key)) scene_.remarks_.push_back(fmt::format("{} is not used: {}", key, reason));
 }
 
+void SceneReader::remark_on_slips() {
+  const auto is_plain = [this](std::string_view key) {
+    const scene::GivenValue* given = given_.find(key);
+    return given && given->is_plain;
+  };
+  for (const auto& remarks :
+       {scene::remarks_on_units(scene_, is_plain), scene::remarks_on_loads(scene_, is_plain)})
+    scene_.remarks_.insert(scene_.remarks_.end(), remarks.begin(), remarks.end());
+}
+
 void SceneReader::refuse(std::string_view key, const std::string& message) const {
   const scene::GivenValue* given = given_.find(key);
-  throw InvalidInput(fmt::format("{}: {}", given ? given->where : given_.label, message));
+  const double* number = given && given->is_plain ? std::get_if<double>(&given->value) : nullptr;
+  throw InvalidInput(fmt::format("{}: {}{}", given ? given->where : given_.label, message,
+                                 scene::did_you_mean(number ? scene::unit_meant(key, *number) : "")));
 }
 
 Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {

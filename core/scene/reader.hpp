@@ -48,6 +48,9 @@ class SceneReader {
   void remark_on_wall_keys_without_use();
   void check_fractions() const;
 
+  /// Adds what slips.hpp says of the scene to its remarks.
+  void remark_on_slips();
+
   // checks.cpp: values against each other
   void check() const;
   void check_geometry() const;

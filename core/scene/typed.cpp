@@ -13,6 +13,7 @@
 #include "core/error.hpp"
 #include "core/scene/message.hpp"
 #include "core/scene/scene.hpp"
+#include "core/scene/slips.hpp"
 
 namespace tunica::scene {
 
@@ -58,10 +59,11 @@ std::string allowed(const Parameter& parameter) {
   throw InvalidInput(fmt::format("{} = {} {}; {}", one_line(key), value, why, remedy));
 }
 
-void check_bounds(double value, const Parameter& parameter, const std::string& key) {
+void check_bounds(double value, const Parameter& parameter, const std::string& key, bool is_plain) {
   if (parameter.bounds.contains(value)) return;
   refuse(key, with_unit(value, parameter.unit),
-         std::isfinite(value) ? "is out of range" : "is not a finite number", allowed(parameter));
+         std::isfinite(value) ? "is out of range" : "is not a finite number",
+         allowed(parameter) + did_you_mean(is_plain ? unit_meant(key, value) : ""));
 }
 
 double number_from(const toml::node& node, const Parameter& parameter, const std::string& key) {
@@ -74,7 +76,7 @@ double number_from(const toml::node& node, const Parameter& parameter, const std
     value = convert_quantity(text->get(), parameter.unit, key);
   else
     refuse(key, shown(node), "is not a number", allowed(parameter));
-  check_bounds(value, parameter, key);
+  check_bounds(value, parameter, key, node.is_number());
   return value;
 }
 
@@ -86,7 +88,7 @@ long integer_from(const toml::node& node, const Parameter& parameter, const std:
     value = floating->get();
   else
     refuse(key, shown(node), "is not a whole number", allowed(parameter));
-  check_bounds(value, parameter, key);
+  check_bounds(value, parameter, key, false);
   if (value != std::floor(value)) refuse(key, shown(node), "is not a whole number", allowed(parameter));
   return static_cast<long>(value);
 }
@@ -128,7 +130,7 @@ double listed_number(const std::string& part, const Parameter& parameter, const 
   const double plain = std::strtod(part.c_str(), &end);
   const bool whole = !part.empty() && *end == '\0';
   const double value = whole ? plain : convert_quantity(part, parameter.unit, key);
-  check_bounds(value, parameter, key);
+  check_bounds(value, parameter, key, whole);
   return value;
 }
 

@@ -86,6 +86,8 @@ TEST_P(ShippedScene, RunsToItsEndWithTheColumnsOfTheContract) {
 
   const StoredResult stored = read_result(out);
   EXPECT_EQ(stored.record.at("converged"), true);
+  for (const auto& finding : stored.record.at("findings"))
+    EXPECT_EQ(finding.get<std::string>().find("last beat"), std::string::npos) << finding;
   const Scene scene = read_scene(file());
   const bool is_static = scene.text("time.mode") == "static";
   const bool needs_mesh = is_static || scene.text("geometry.kind") == "mesh" || GetParam() == "elastic_tube";
@@ -192,6 +194,26 @@ TEST(RunProgram, TellsWhatItDid) {
       test_support::tunica({"run", scenes / "cylinder.toml", "--no-report", "--resume"}, folder.path());
   EXPECT_EQ(again.code, 0);
   EXPECT_NE(again.output.find("this run is complete"), std::string::npos) << again.output;
+}
+
+// A first own artery at the resistance of a much smaller one: what the terminal says is kept in the record.
+TEST(RunProgram, RemarksOnAnArteryThatCannotLive) {
+  const TemporaryFolder folder;
+  const Ended ended = test_support::tunica(
+      {"run", scenes / "cylinder.toml", "--out", "r", "--tier", "lumped", "--set", "geometry.radius=0.15",
+       "--set", "geometry.thickness=0.03", "--set", "geometry.length=5", "--set", "wall.law=EXP1"},
+      folder.path());
+  EXPECT_EQ(ended.code, 0) << ended.errors;
+  const StoredResult stored = read_result(folder.path() / "r");
+  const auto said = [&](const char* list, const char* words) {
+    return std::any_of(stored.record.at(list).begin(), stored.record.at(list).end(), [&](const auto& line) {
+      const std::string text = line.template get<std::string>();
+      return text.find(words) != std::string::npos && ended.errors.find(text) != std::string::npos;
+    });
+  };
+  EXPECT_TRUE(said("remarks", "mean pressure of 1947 mmHg")) << ended.errors;
+  EXPECT_TRUE(said("findings", "mmHg in the last beat")) << ended.errors;
+  EXPECT_TRUE(said("findings", "does not repeat itself")) << ended.errors;
 }
 
 TEST(RunProgram, ReplacesAnEarlierRunsReport) {

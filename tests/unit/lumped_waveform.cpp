@@ -104,7 +104,8 @@ TEST(LumpedWaveform, EjectionThenNothing) {
   const auto &inflow = column(run.observables, "inflow"), &pressure = column(run.observables, "pressure");
   EXPECT_EQ(*std::min_element(inflow.begin(), inflow.end()), 0);
   EXPECT_NEAR(*std::max_element(inflow.begin(), inflow.end()), 400, 0.1);
-  // 400 x 2/pi x 0.3 ml in a beat, but for the corners at both ends of the ejection, which the curve rounds off.
+  // 400 x 2/pi x 0.3 ml in a beat, but for the corners at both ends of the ejection, which the curve rounds
+  // off.
   EXPECT_NEAR(test_support::integral(inflow, inflow.size() - 1001, 1e-3), 240 / M_PI, 0.3);
   for (std::size_t k = 0; k + 1000 < pressure.size(); ++k)
     EXPECT_NEAR(pressure[k + 1000], pressure[k], 1e-6 * pressure[k]) << k;
