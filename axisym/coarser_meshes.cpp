@@ -2,7 +2,6 @@
 #include "axisym/coarser_meshes.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "axisym/prolong.hpp"
 
@@ -10,29 +9,15 @@ namespace tunica::axisym {
 
 namespace {
 
-/// Meshes that lead from a coarse one to that of a resolution, each of at most twice the cells in a
-/// direction; without the latter.
 std::vector<Resolution> coarser_resolutions(const Resolution& finest, int layers) {
-  using Count = int Resolution::*;
-  struct Direction {
-    Count count;
-    int least;
-  };
-  const Direction directions[] = {{&Resolution::wall_cells, std::max(2, layers)},
-                                  {&Resolution::blood_cells, 2},
-                                  {&Resolution::axial_cells, 16}};
-  double ratio = 1;
-  for (const auto& [count, least] : directions)
-    ratio = std::max(ratio, static_cast<double>(finest.*count) / least);
-  const int levels = static_cast<int>(std::ceil(std::log2(ratio) - 1e-9));
-  std::vector<Resolution> meshes(levels, finest);
-  for (int k = 0; k < levels; ++k) {
-    for (const auto& [count, least] : directions) {
-      if (finest.*count <= least) continue;
-      const double share = static_cast<double>(k) / levels;
-      meshes[k].*count = static_cast<int>(std::lround(least * std::pow(finest.*count / least, share)));
-    }
-    meshes[k].axial_cells += meshes[k].axial_cells % 2;
+  std::vector<Resolution> meshes;
+  for (const auto& counts : coupled::coarser_counts({{finest.wall_cells, std::max(2, layers)},
+                                                     {finest.blood_cells, 2},
+                                                     {finest.axial_cells, 16, 2}})) {
+    Resolution& mesh = meshes.emplace_back(finest);
+    mesh.wall_cells = counts[0];
+    mesh.blood_cells = counts[1];
+    mesh.axial_cells = counts[2];
   }
   return meshes;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "axisym/remarks.hpp"
 
+#include "core/coupled/wall_strain.hpp"
 #include "core/scene/unused.hpp"
 
 namespace tunica::axisym {
@@ -23,6 +24,8 @@ std::vector<std::string> remarks_on_unused_keys(const Scene& scene, const Setup&
     unused.push_back({{"geometry.thickness", "geometry.length"}, "geometry.kind is \"mesh\""});
   if (scene.text("mesh.element") == "bubble")
     unused.push_back({{"mesh.mixed_wall"}, "mesh.element is \"bubble\""});
+  else if (coupled::is_far_from_incompressible(setup.problem.laws))
+    unused.push_back({{"mesh.mixed_wall"}, "the wall is far from incompressible"});
   return scene::remarks_on(scene, unused);
 }
 

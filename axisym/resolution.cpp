@@ -94,10 +94,8 @@ Mesh mesh_of(const Scene& scene, const Resolution& resolution, bool with_blood) 
                       "also resolves how the clamped ends bend the wall; shorten it, or write geometry.ends "
                       "= \"sliding\" and inlet.profile = \"natural\"",
                       spec.length, spec.length / spec.radius));
-    // Linear elements have other errors to lose first.
-    const bool resolve_corners = scene.text("mesh.element") == "quadratic";
-    spec.end_grading = (resolve_corners ? corner_grading : 1) * bending;
-    spec.interface_grading = resolve_corners ? interface_grading : 1;
+    spec.end_grading = coupled::end_grading(scene);
+    spec.interface_grading = scene.text("mesh.element") == "quadratic" ? interface_grading : 1;
   }
   require_solvable(scene, (2.0 * (spec.blood_cells + spec.wall_cells) + 1) * (2.0 * spec.axial_cells + 1));
   const bool triangles = scene.text("mesh.element") == "bubble" || scene.text("mesh.cell") == "triangle";

@@ -144,8 +144,7 @@ WallTable wall_table(const Problem& problem, int index, bool held) {
   WallTable table{index, cell.layer, 0, {}};
   // Strain is singular where held sides end. Quadratic cells there would buckle within themselves, their
   // volume being bounded in the mean, and need no help against locking.
-  const bool mixed = problem.discretisation.mixed_wall && element != Element::bubble &&
-                     wall::splits_volume(problem.laws[cell.layer]) &&
+  const bool mixed = coupled::mixes(problem.discretisation, problem.laws[cell.layer]) &&
                      !(held && element == Element::quadratic);
   if (mixed) table.pressure_terms = element == Element::quadratic ? kernel::max_pressure_terms<Frame> : 1;
   for (std::size_t q = 0; q < rule.points.size(); ++q) {

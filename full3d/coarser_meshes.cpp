@@ -2,7 +2,6 @@
 #include "full3d/coarser_meshes.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/error.hpp"
 #include "full3d/prolong.hpp"
@@ -12,28 +11,17 @@ namespace tunica::full3d {
 namespace {
 
 std::vector<Resolution> coarser_resolutions(const Resolution& finest, int layers) {
-  using Count = int Resolution::*;
-  struct Direction {
-    Count count;
-    int least;
-    int multiple;
-  };
-  const Direction directions[] = {{&Resolution::wall_cells, std::max(1, layers), 1},
-                                  {&Resolution::blood_cells, 1, 1},
-                                  {&Resolution::axial_cells, 10, 2},
-                                  {&Resolution::around_cells, 8, 8}};
-  double ratio = 1;
-  for (const auto& [count, least, multiple] : directions)
-    ratio = std::max(ratio, static_cast<double>(finest.*count) / least);
-  const int levels = static_cast<int>(std::ceil(std::log2(ratio) - 1e-9));
-  std::vector<Resolution> meshes(levels, finest);
-  for (int k = 0; k < levels; ++k)
-    for (const auto& [count, least, multiple] : directions) {
-      if (finest.*count <= least) continue;
-      const double share = static_cast<double>(k) / levels;
-      const double wanted = least * std::pow(static_cast<double>(finest.*count) / least, share);
-      meshes[k].*count = multiple * static_cast<int>(std::lround(wanted / multiple));
-    }
+  std::vector<Resolution> meshes;
+  for (const auto& counts : coupled::coarser_counts({{finest.wall_cells, std::max(1, layers)},
+                                                     {finest.blood_cells, 1},
+                                                     {finest.axial_cells, 10, 2},
+                                                     {finest.around_cells, 8, 8}})) {
+    Resolution& mesh = meshes.emplace_back(finest);
+    mesh.wall_cells = counts[0];
+    mesh.blood_cells = counts[1];
+    mesh.axial_cells = counts[2];
+    mesh.around_cells = counts[3];
+  }
   return meshes;
 }
 

@@ -7,6 +7,7 @@
 
 #include "core/coupled/gmsh_parts.hpp"
 #include "core/coupled/vessel_run.hpp"
+#include "core/coupled/wall_strain.hpp"
 #include "core/error.hpp"
 #include "core/scene/unused.hpp"
 #include "core/stability/warning.hpp"
@@ -139,6 +140,8 @@ class Full3dVessel final : public coupled::Vessel {
       unused.push_back({{"geometry.thickness", "geometry.length"}, "geometry.kind is \"mesh\""});
     if (scene_.text("mesh.element") == "bubble")
       unused.push_back({{"mesh.mixed_wall"}, "mesh.element is \"bubble\""});
+    else if (coupled::is_far_from_incompressible(setup_->problem.laws))
+      unused.push_back({{"mesh.mixed_wall"}, "the wall is far from incompressible"});
     auto warnings = scene::remarks_on(scene_, unused);
     if (setup_->axes)
       if (const auto remark = coupled::radius_remark(inlet_radius(setup_->problem.mesh), scene_))

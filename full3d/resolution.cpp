@@ -19,18 +19,9 @@ namespace {
 using coupled::corner_grading;
 using coupled::interface_grading;
 
-/// Of cells along the vessel: between clamped ends for how they bend the wall.
-double end_grading(const Scene& scene) {
-  if (scene.text("geometry.ends") != "clamped") return 1;
-  const bool quadratic = scene.text("mesh.element") == "quadratic";
-  return (quadratic ? corner_grading : 1) * element::bending_layer_grading(scene.number("geometry.radius"),
-                                                                           scene.number("geometry.thickness"),
-                                                                           scene.number("geometry.length"));
-}
-
 /// The fewest cells along a torus, from `cells` on, of which none turns by more than 45 degrees.
 int cells_along_bend(const Scene& scene, int cells) {
-  const double grading = end_grading(scene), length = scene.number("geometry.length");
+  const double grading = coupled::end_grading(scene), length = scene.number("geometry.length");
   if (grading > element::steepest_grading) return cells;
   const double longest = 45 / scene.number("geometry.bend_angle") * length;
   for (;; cells += 2) {
@@ -98,7 +89,7 @@ VesselSpec vessel_spec(const Scene& scene, const Resolution& resolution, bool wi
           fmt::format("geometry.length = {:g} cm is {:.3g} times geometry.radius, too long for a mesh that "
                       "also resolves how the clamped ends bend the wall; shorten it",
                       spec.length, spec.length / spec.radius));
-    spec.end_grading = end_grading(scene);
+    spec.end_grading = coupled::end_grading(scene);
     spec.interface_grading = spec.quadratic ? interface_grading : 1;
   }
   const bool tetrahedra = scene.text("mesh.element") == "bubble" || scene.text("mesh.cell") == "triangle";

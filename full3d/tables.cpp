@@ -159,9 +159,9 @@ int Tables<Width, SideWidth>::pressure_terms(int cell) const {
   const Element element = problem_.discretisation.element;
   // Strain is singular where held faces end. Quadratic cells there would buckle within themselves, their
   // volume being bounded in the mean, and need no help against locking.
-  const bool mixed = problem_.discretisation.mixed_wall && element != Element::bubble &&
-                     wall::splits_volume(problem_.laws[problem_.mesh.cells[cell].layer]) &&
-                     !(held_[cell] && element == Element::quadratic);
+  const bool mixed =
+      coupled::mixes(problem_.discretisation, problem_.laws[problem_.mesh.cells[cell].layer]) &&
+      !(held_[cell] && element == Element::quadratic);
   if (!mixed) return 0;
   return element == Element::quadratic ? kernel::max_pressure_terms<Frame> : 1;
 }

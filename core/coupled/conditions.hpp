@@ -8,6 +8,7 @@
 #include "core/coupled/vessel.hpp"
 #include "core/physics/blood.hpp"
 #include "core/physics/tether.hpp"
+#include "core/physics/wall_momentum.hpp"
 #include "core/wall/law.hpp"
 
 namespace tunica::coupled {
@@ -21,8 +22,8 @@ enum class Element { quadratic, linear, bubble };
 
 struct Discretisation {
   Element element = Element::quadratic;
-  /// Interpolate the wall pressure on its own, so that nearly incompressible tissue does not lock. Laws
-  /// without a volumetric split, and the bubble element, use the law's own stress.
+  /// Interpolate the wall pressure on its own, so that nearly incompressible tissue does not lock. Laws far
+  /// from incompressible, and the bubble element, use the law's own stress.
   bool mixed_wall = true;
   /// Make small cells of the blood's mesh stiffer (by the inverse square of their size), which keeps them
   /// from inverting under large motion of the wall.
@@ -31,6 +32,12 @@ struct Discretisation {
   /// unknowns: it follows the wall after the step.
   bool lagged_mesh = false;
 };
+
+/// True for tissue whose pressure cells interpolate on their own (those of the bubble element never do).
+inline bool mixes(const Discretisation& discretisation, const wall::Law<double>& law) {
+  return discretisation.mixed_wall && discretisation.element != Element::bubble &&
+         physics::pointwise_volumetric_share(law) < 1;
+}
 
 enum class InletKind {
   prescribed,  ///< by the velocity on the boundary

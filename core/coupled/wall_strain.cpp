@@ -13,15 +13,19 @@ void WallStrain::add(double factor, const WallStrain& other) {
 }
 
 void WallStrain::take_own_pressure(const wall::Law<double>& law) {
-  if (wall::splits_volume(law)) pressure = -wall::volumetric(law).slope(volume_change(gradient));
+  pressure = -wall::volumetric_stress(law, wall::volume_strain(law, gradient));
 }
 
 Tensor<double> cauchy(const wall::Law<double>& law, const WallStrain& strain,
                       const wall::MaterialAxes& axes) {
-  const Tensor<double> piola = wall::splits_volume(law)
-                                   ? physics::mixed_wall_stress(law, strain.gradient, axes, strain.pressure)
-                                   : wall::piola(law, strain.gradient, axes);
-  return cauchy_stress(piola, strain.gradient);
+  return cauchy_stress(physics::mixed_wall_stress(law, strain.gradient, axes, strain.pressure),
+                       strain.gradient);
+}
+
+bool is_far_from_incompressible(const std::vector<wall::Law<double>>& laws) {
+  return std::all_of(laws.begin(), laws.end(), [](const wall::Law<double>& law) {
+    return physics::pointwise_volumetric_share(law) == 1;
+  });
 }
 
 std::vector<int> distinct_families(const wall::Law<double>& law) {

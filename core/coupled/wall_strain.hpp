@@ -11,17 +11,19 @@ namespace tunica::coupled {
 struct WallStrain {
   Vector<double> displacement{};  ///< d, cm
   Tensor<double> gradient{};      ///< dd/dX
-  /// Of laws that split the volume change off: the wall pressure, dyn/cm2, interpolated on its own where
-  /// tissue is mixed, else -U'(J).
+  /// The wall pressure, dyn/cm2, interpolated on its own where tissue is mixed, else the law's own.
   double pressure = 0;
 
   void add(double factor, const WallStrain& other);
-  /// Sets the pressure to that of the law where it splits the volume change off.
+  /// Sets the pressure to that of the law, -V'(theta).
   void take_own_pressure(const wall::Law<double>& law);
 };
 
 /// Cauchy stress of a strain and its pressure, dyn/cm2.
 Tensor<double> cauchy(const wall::Law<double>& law, const WallStrain& strain, const wall::MaterialAxes& axes);
+
+/// No cell interpolates the pressure of any of these on its own.
+bool is_far_from_incompressible(const std::vector<wall::Law<double>>& laws);
 
 /// Families of a law that do not act like an earlier one where the vessel is its own mirror image, as
 /// families of equal |angle| and threshold do.

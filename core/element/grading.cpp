@@ -38,10 +38,14 @@ std::vector<double> lines_along(double length, int cells, double grading) {
   return lines;
 }
 
+double bending_layer(double radius, double thickness) {
+  return 3 * std::sqrt(radius * thickness);
+}
+
 double bending_layer_grading(double radius, double thickness, double length) {
   // A quarter of the cells (x from -1 to -1/2) reaches to the layer's width: with t = tanh(d/2),
   // (1 - tanh(d/2)/tanh d)/2 = (1 - t^2)/4.
-  const double layer = 3 * std::sqrt(radius * thickness) / length;
+  const double layer = bending_layer(radius, thickness) / length;
   if (!(layer < 0.25)) return 1;
   const double steepness = 2 * std::atanh(std::sqrt(1 - 4 * layer));
   return std::pow(std::cosh(steepness), 2);

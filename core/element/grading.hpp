@@ -16,8 +16,11 @@ inline constexpr double steepest_grading = 1e6;
 /// mirrors the lower one.
 std::vector<double> lines_along(double length, int cells, double grading);
 
-/// End grading that gives half of the axial cells to the two boundary layers in which a clamped shell bends:
-/// each of width 3 sqrt(R h), after which exp(-1.22 z/sqrt(R h)) has fallen to 3 %. 1 for a tube so short
+/// Width of the boundary layer in which a clamped shell bends: 3 sqrt(R h), after which
+/// exp(-1.22 z/sqrt(R h)) has fallen to 3 %.
+double bending_layer(double radius, double thickness);
+
+/// End grading that gives half of the axial cells to these two layers. 1 for a tube so short
 /// that they cover half of it.
 double bending_layer_grading(double radius, double thickness, double length);
 

@@ -48,9 +48,9 @@ struct WallTangent {
 };
 
 /// Wall pressure of a cell, interpolated on its own and discontinuous between cells: for all q
-///   int q (p_wall + U'(J)) dX = 0.
-/// It is thus no unknown but the projection of -U'(J), which keeps nearly incompressible tissue from
-/// locking as a mixed method does.
+///   int q (p_wall + V'(theta)) dX = 0,
+/// theta the volume strain of the law. It is thus no unknown but the projection of -V'(theta), which keeps
+/// nearly incompressible tissue from locking as a mixed method does.
 template <class Frame>
 class WallPressure {
  public:
@@ -62,9 +62,9 @@ class WallPressure {
       : terms_(parameters.pressure_terms) {
     double gram[most][most] = {};
     double load[most] = {};
-    const auto& volumetric = wall::volumetric(*parameters.law);
+    const wall::Law<double>& law = *parameters.law;
     for (std::size_t q = 0; q < points.size(); ++q) {
-      const double stress = volumetric.slope(volume_change(gradients[q]));
+      const double stress = wall::volumetric_stress(law, wall::volume_strain(law, gradients[q]));
       for (int i = 0; i < terms_; ++i) {
         load[i] -= points[q].weight * points[q].pressure[i] * stress;
         for (int j = 0; j < terms_; ++j)
@@ -150,6 +150,7 @@ void add_wall_tangent(const WallParameters& parameters, const std::vector<WallPo
   const bool mixed = parameters.pressure_terms > 0;
   std::optional<WallPressure<Frame>> pressure;
   if (mixed) pressure.emplace(parameters, points, h);
+  const double projected_share = 1 - physics::pointwise_volumetric_share(*parameters.law);
   // Derivatives of the volume and of the projected pressure's load, by nodal displacement.
   NodalVector<Frame, Width> volume[most], load[most];
   for (std::size_t q = 0; q < points.size(); ++q) {
@@ -164,17 +165,18 @@ void add_wall_tangent(const WallParameters& parameters, const std::vector<WallPo
     };
     contract(at.weight, slots, slots, derivative, at.displacement, at.displacement, tangent.momentum);
     if (!mixed) continue;
-    const Kinematics<double> k(h[q]);
-    const double stiffness = (1 - physics::pointwise_volumetric_share) *
-                             wall::volumetric(*parameters.law).slope(seed(k.volume_change)).derivative[0];
-    NodalVector<Frame, Width> minors;
-    test_vector(1.0, Vector<double>{}, k.deformation_cofactor, at.displacement, minors);
+    const double strain = wall::volume_strain(*parameters.law, h[q]);
+    const double stiffness =
+        projected_share * wall::volumetric_stress(*parameters.law, seed(strain)).derivative[0];
+    NodalVector<Frame, Width> change;
+    test_vector(1.0, Vector<double>{}, wall::volume_strain_slope(*parameters.law, h[q]), at.displacement,
+                change);
     for (int i = 0; i < parameters.pressure_terms; ++i) {
       const double weight = at.weight * at.pressure[i];
       for (int c = 0; c < n; ++c)
         for (int l = 0; l < Width; ++l) {
-          volume[i].value[c][l] += weight * minors.value[c][l];
-          load[i].value[c][l] += weight * stiffness * minors.value[c][l];
+          volume[i].value[c][l] += weight * change.value[c][l];
+          load[i].value[c][l] += weight * stiffness * change.value[c][l];
         }
     }
   }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
+
 #include "core/wall/law.hpp"
 
 namespace tunica::physics {
@@ -11,30 +13,27 @@ Vector<S> wall_inertia(double density, const Vector<S>& acceleration) {
   return {density * acceleration[0], density * acceleration[1], density * acceleration[2]};
 }
 
-/// First Piola-Kirchhoff stress of tissue with a hydrostatic stress of its own: P = P_iso(H) - p cof F.
-template <class S>
-Tensor<S> pressurised_wall_stress(const wall::Law<double>& law, const Tensor<S>& displacement_gradient,
-                                  const wall::MaterialAxes& axes, const S& pressure) {
-  const Kinematics<S> k(displacement_gradient);
-  return wall::isochoric_piola(law, k, axes) - pressure * k.deformation_cofactor;
-}
-
 /// Share of the volumetric stress that is taken at each point when the rest is interpolated on its own. It
 /// keeps the volume change within a cell bounded where strain is singular, as at the corners of clamped ends,
-/// and is too small to lock: the tissue's bulk modulus times it is a few times its shear modulus.
-inline constexpr double pointwise_volumetric_share = 0.1;
+/// and is too small to lock: a tenth of it, but no less than 11 times and no more than 60 times the stiffness
+/// against changes of shape (12 to 52 times in the paper's laws). 1, all of it, for tissue that is far from
+/// incompressible.
+inline double pointwise_volumetric_share(const wall::Law<double>& law) {
+  constexpr double share = 0.1, least = 11, greatest = 60;
+  const double ratio = wall::volumetric_ratio(law);
+  return ratio > least ? std::clamp(share * ratio, least, greatest) / ratio : 1;
+}
 
-/// First Piola-Kirchhoff stress of tissue whose volumetric part U'(J) is, for the greater share, replaced by
-/// a pressure that is interpolated on its own:
-///   P = P_iso(H) + [s U'(J) - (1 - s) p_wall] cof F.
-/// With p_wall = -U'(J) it is the law's own stress.
+/// First Piola-Kirchhoff stress of tissue whose volumetric stress V'(theta) (see wall::volume_strain) is, for
+/// the greater share, replaced by a pressure that is interpolated on its own:
+///   P = dW_shape/dH + [s V'(theta) - (1 - s) p_wall] dtheta/dH.
+/// With p_wall = -V'(theta) it is the law's own stress.
 template <class S>
 Tensor<S> mixed_wall_stress(const wall::Law<double>& law, const Tensor<S>& displacement_gradient,
                             const wall::MaterialAxes& axes, double wall_pressure) {
-  constexpr double s = pointwise_volumetric_share;
-  const S volumetric = wall::volumetric(law).slope(volume_change(displacement_gradient));
-  return pressurised_wall_stress(law, displacement_gradient, axes,
-                                 S((1 - s) * wall_pressure - s * volumetric));
+  const double s = pointwise_volumetric_share(law);
+  const S volumetric = wall::volumetric_stress(law, wall::volume_strain(law, displacement_gradient));
+  return wall::piola_with(law, displacement_gradient, axes, S(s * volumetric - (1 - s) * wall_pressure));
 }
 
 }  // namespace tunica::physics

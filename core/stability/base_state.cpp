@@ -123,7 +123,7 @@ class Tissue {
     using Strain = Dual<double, 9>;
     Tensor<Strain> seeded;
     for (int k = 0; k < 9; ++k) seeded.entries[k] = Strain::variable(gradient.entries[k], k);
-    const auto stress = physics::pressurised_wall_stress(law, seeded, Radial::axes(), Strain(pressure));
+    const auto stress = wall::piola_with(law, seeded, Radial::axes(), Strain(-pressure));
     Tangent tangent;
     for (int k = 0; k < 9; ++k) tangent[k] = stress.entries[k].derivative;
     return tangent;

@@ -16,7 +16,8 @@ struct MaterialAxes {
 /// lost; exponent 1 is the form as printed) is, for x = I4bar - a^2,
 ///   w alpha/2gamma (exp(gamma x^exponent) - 1),
 /// and its stress is multiplied by the recruited share H(x), so that the stress is not the gradient
-/// of this energy.
+/// of this energy. Where x < 0 the exponential of the square is left out: w alpha/2 x^2, its first term, so
+/// that what the tail of H lets through there is bounded by w alpha/(pi epsilon) wherever the threshold lies.
 template <class P>
 struct CollagenFamily {
   P angle;               ///< beta, rad, to the circumference
@@ -27,10 +28,11 @@ struct CollagenFamily {
   int exponent = 2;
   Recruitment<P> recruitment{};
 
-  /// Energy of fully recruited fibres.
+  /// Energy of fully recruited fibres. Its first three derivatives are continuous at the threshold.
   template <class S>
   S energy(const S& excess) const {
     using std::expm1;
+    if (exponent == 2 && plain(excess) < 0) return 0.5 * weight * stiffness * (excess * excess);
     const S power = exponent == 2 ? excess * excess : excess;
     return weight * stiffness / (2.0 * stiffening) * expm1(stiffening * power);
   }

@@ -12,6 +12,9 @@ struct Exp1 {
   P stiffness;   ///< alpha, dyn/cm2
   P stiffening;  ///< gamma
 
+  /// Scale of the stiffness against changes of shape.
+  const P& shear_stiffness() const { return stiffness; }
+
   template <class S>
   S energy(const S& invariant_change) const {
     using std::expm1;

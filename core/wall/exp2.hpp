@@ -12,6 +12,9 @@ struct Exp2 {
   P stiffness;   ///< alpha, dyn/cm2
   P stiffening;  ///< gamma
 
+  /// Scale of the stiffness against changes of shape, once the tissue is strained.
+  const P& shear_stiffness() const { return stiffness; }
+
   template <class S>
   S energy(const S& invariant_change) const {
     using std::expm1;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What accuracy.tolerance promises of the 2D tier: errors of all observables, relative to their ranges, over
 // two beats of the paper's cylinder from rest. tools/accuracy measures the same against much finer runs.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 #include <map>
 
 #include "tests/support/axisym_runs.hpp"
+#include "tests/support/pressure_pulse.hpp"
 
 namespace tunica {
 namespace {
@@ -69,6 +71,21 @@ TEST_P(FineTolerance, IsKept) {
   }
 }
 INSTANTIATE_TEST_SUITE_P(, FineTolerance, testing::Values("EXP1+EXP2-ZS", "EXP1+EXP2-FS"), without_signs);
+
+// Pulses shorter than the artery, which run to and fro: cells by their length, steps by the error of each. A
+// reference has twice the cells along and steps of a fifth of the tolerance.
+class PulseTolerance : public testing::TestWithParam<double> {};
+
+TEST_P(PulseTolerance, IsKeptWhateverTheLengthOfTheWave) {
+  const test_support::PressurePulse pulse(GetParam(), 6e-3);
+  const Result result = run_axisym(pulse.scene({"accuracy.tolerance=0.01"}));
+  const int cells = result.record.resolution.at("axial_cells").get<int>();
+  const Result reference =
+      run_axisym(pulse.scene({"accuracy.tolerance=0.002", "mesh.wall_cells=3", "mesh.blood_cells=2",
+                              fmt::format("mesh.axial_cells={}", 2 * cells)}));
+  for (const auto& [column, error] : errors(result, reference)) EXPECT_LT(error, 0.01) << column;
+}
+INSTANTIATE_TEST_SUITE_P(, PulseTolerance, testing::Values(2e-3, 1e-3));
 
 }  // namespace
 }  // namespace tunica

@@ -22,8 +22,9 @@ namespace tunica::test_support::tangent {
 using coupled::Layout;
 
 // Stiffnesses, densities and viscosity are all of order one, so that no term hides behind another: an error
-// in the blood's share of an interface row must not drown in the wall's.
-inline constexpr wall::Volumetric<double> volumetric{20};
+// in the blood's share of an interface row must not drown in the wall's. Changes of volume are just stiff
+// enough for their stress to be interpolated on its own.
+inline constexpr wall::Volumetric<double> volumetric{40};
 inline constexpr wall::Exp1<double> elastin{2, 0.5};
 
 /// The threshold 1.2 lies within the range of I4 in these states. H bends on a scale of 1/sharpness, below
@@ -43,7 +44,9 @@ inline std::vector<NamedLaw> laws() {
           {"EXP2", wall::SplitLaw<double, wall::Exp2>{volumetric, {2, 0.3}, {}}},
           {"ZS", fibrous(1)},
           {"FS", fibrous(1.2)},
-          {"linear elastic", wall::EnergyLaw<wall::LinearElastic<double>>{{5, 0.3}}}};
+          {"linear elastic", wall::EnergyLaw<wall::LinearElastic<double>>{{5, 0.47}}},
+          {"St. Venant-Kirchhoff", wall::EnergyLaw<wall::StVenantKirchhoff<double>>{{5, 0.48}}},
+          {"compressible neo-Hookean", wall::EnergyLaw<wall::NeoHookeanCompressible<double>>{{2, 40}}}};
 }
 
 template <int dimension>

@@ -163,6 +163,7 @@ Real ReferenceLaw::share(std::size_t k, const Matrix3& F, const wall::MaterialAx
 Real ReferenceLaw::fiber_energy(std::size_t k, const Matrix3& F, const wall::MaterialAxes& axes) const {
   const ReferenceFamily& f = families[k];
   const Real x = excess(k, F, axes);
+  if (f.exponent == 2 && x < 0) return f.weight * f.stiffness / 2 * x * x;
   return f.weight * f.stiffness / (2 * f.stiffening) *
          (std::exp(f.stiffening * (f.exponent == 2 ? x * x : x)) - 1);
 }
@@ -171,8 +172,9 @@ Matrix3 ReferenceLaw::fiber_piola(std::size_t k, const Matrix3& F, const wall::M
   const ReferenceFamily& f = families[k];
   const Vector3 a0 = fiber(f, axes), a = mapped(F, a0);
   const Real x = excess(k, F, axes);
-  const Real slope = f.weight * f.stiffness *
-                     (f.exponent == 2 ? x * std::exp(f.stiffening * x * x) : std::exp(f.stiffening * x) / 2);
+  const Real exponential =
+      f.exponent == 2 ? (x < 0 ? 1 : std::exp(f.stiffening * x * x)) : std::exp(f.stiffening * x);
+  const Real slope = f.weight * f.stiffness * (f.exponent == 2 ? x : Real(0.5)) * exponential;
   Real J = 0;
   const Matrix3 T = inverse_transpose(F, J);
   Matrix3 P;

@@ -31,9 +31,10 @@ Stress stress(const FiberTissue& t, double radial, double hoop) {
   const double fourth = tt * c2 + zz * s2;
   const double x = fourth - (t.activation_stretch * t.activation_stretch * c2 + s2);
   const double share = t.sharp ? (x > 0 ? 1.0 : 0.0) : std::atan(t.sharpness * x) / std::numbers::pi + 0.5;
-  const double slope = t.exponent == 2 ? 2 * t.fiber_alpha * x * std::exp(t.fiber_gamma * x * x)
-                                       : t.fiber_alpha * std::exp(t.fiber_gamma * x);  // 2 dW/dI4
-  const double fibers = 2 * share * slope;                                             // two families
+  // The exponential of the square grows above the threshold only.
+  const double power = t.exponent == 2 ? x * std::max(x, 0.0) : x;
+  const double slope = t.fiber_alpha * std::exp(t.fiber_gamma * power) * (t.exponent == 2 ? 2 * x : 1);
+  const double fibers = 2 * share * slope;  // slope is 2 dW/dI4; two families
   tau_r -= fibers * fourth / 3;
   tau_t += fibers * (tt * c2 - fourth / 3);
 

@@ -121,18 +121,26 @@ struct Lame {
 };
 
 TEST(RadialClosedForm, LinearElasticWallIsLamesCylinder) {
-  for (const double stiffness : {0.0, 1e7}) {
-    for (const double stretch : {1 + 1e-9, 1.01, 1.3, 0.9}) {
-      SCOPED_TRACE(testing::Message() << stretch << ", tether " << stiffness);
-      const auto model =
-          model_with({"wall.law=linear-elastic", "wall.young_modulus=3e6", "wall.poisson_ratio=0.3",
-                      "tether.stiffness=" + std::to_string(stiffness), "tether.traction=reference"});
-      Lame lame(3e6, 0.3);
+  for (const double nu : {0.3, 0.499999})
+    for (const auto& [stiffness, stretch] : {std::pair{0.0, 1 + 1e-9},
+                                             {0.0, 1.01},
+                                             {0.0, 1.3},
+                                             {0.0, 0.9},
+                                             {1e7, 1 + 1e-9},
+                                             {1e7, 1.01},
+                                             {1e7, 1.3},
+                                             {1e7, 0.9}}) {
+      SCOPED_TRACE(testing::Message() << stretch << ", tether " << stiffness << ", Poisson's ratio " << nu);
+      const auto model = model_with(
+          {"wall.law=linear-elastic", "wall.young_modulus=3e6", "wall.poisson_ratio=" + std::to_string(nu),
+           "tether.stiffness=" + std::to_string(stiffness), "tether.traction=reference"});
+      Lame lame(3e6, nu);
       lame.solve((stretch - 1) * inner, stiffness);
       const std::array places{0.0, 0.35, 1.0};
       const auto response = model->respond(stretch, places, false);
-      // The pressure acts on the current inner surface: p r_i = -P_RR R_i.
-      EXPECT_NEAR(response.pressure / (-lame.stress(inner) / stretch), 1, 1e-10);
+      // The pressure acts on the current inner surface: p r_i = -P_RR R_i. Strains of volume that are 1e-6 of
+      // the others leave it a digit less.
+      EXPECT_NEAR(response.pressure / (-lame.stress(inner) / stretch), 1, nu < 0.4 ? 1e-10 : 1e-9);
       for (std::size_t k = 0; k < places.size(); ++k) {
         const double radius = inner + 0.01 * places[k];
         EXPECT_NEAR(response.states[k].displacement / lame.displacement(radius), 1, 1e-10);
@@ -140,7 +148,6 @@ TEST(RadialClosedForm, LinearElasticWallIsLamesCylinder) {
         EXPECT_NEAR(response.states[k].radial_slope / (lame.a - lame.b / (radius * radius)), 1, 1e-7);
       }
     }
-  }
 }
 
 TEST(RadialClosedForm, StVenantKirchhoffTendsToLameLinearly) {

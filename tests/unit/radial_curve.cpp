@@ -87,8 +87,10 @@ TEST(WallCurve, CarriesParameterDerivatives) {
         const auto& state = direct.state_derivatives[k][p];
         EXPECT_NEAR(curve.displacement_derivative(stretch, k, p), state.displacement,
                     1e-6 * std::abs(direct.state_derivatives[k][3].displacement) + 1e-20);
+        // Fibres that none recruits carry the same whatever their threshold: what is left is rounding.
+        const double rounding = 1e-16 * std::abs(direct.states[3].radial_slope);
         EXPECT_NEAR(curve.radial_slope_derivative(stretch, k, p), state.radial_slope,
-                    1e-4 * std::abs(direct.state_derivatives[k][3].radial_slope) + 1e-18);
+                    1e-4 * std::abs(direct.state_derivatives[k][3].radial_slope) + rounding);
       }
     }
   }

@@ -43,5 +43,17 @@ TEST(RadialThresholds, MoveWithOneOverTheBulkModulus) {
   }
 }
 
+// Fibres that far below their threshold leave the elastin alone, at rest and under load.
+TEST(RadialThresholds, BeyondReachLeaveTheMatrix) {
+  for (const char* stretch : {"wall.activation_stretch=4", "wall.activation_stretch=5"}) {
+    const auto model = test_support::model_with({stretch, "tether.stiffness=0"});
+    EXPECT_NEAR(model->respond(1.0, {}, false).pressure, 0, 1e-3 * mmhg) << stretch;
+    const auto elastin = test_support::model_with(
+        {"wall.law=EXP1", "wall.stiffness=3.5270e4", "wall.stiffening=0.3424", "tether.stiffness=0"});
+    EXPECT_NEAR(model->respond(1.4, {}, false).pressure / elastin->respond(1.4, {}, false).pressure, 1, 1e-4)
+        << stretch;
+  }
+}
+
 }  // namespace
 }  // namespace tunica

@@ -52,6 +52,14 @@ TEST(TierRemarks, AxisymNamesWhatItsModesLeaveOut) {
   EXPECT_EQ(
       remarks<AxisymTier>("cylinder.toml", with({"mesh.element=bubble", "mesh.mixed_wall=false"}), false),
       Overrides{"mesh.mixed_wall is not used: mesh.element is \"bubble\""});
+  const auto not_mixed = [&](const char* ratio) {
+    return remarks<AxisymTier>("cylinder_exp1.toml",
+                               with({"wall.law=linear-elastic", std::string("wall.poisson_ratio=") + ratio,
+                                     "mesh.mixed_wall=false"}),
+                               false);
+  };
+  EXPECT_EQ(not_mixed("0.3"), Overrides{"mesh.mixed_wall is not used: the wall is far from incompressible"});
+  EXPECT_EQ(not_mixed("0.49"), Overrides{});
   EXPECT_EQ(
       remarks<AxisymTier>("cylinder.toml", with({"inlet.waveform=pressure", "inlet.profile=natural"}), false),
       Overrides{"inlet.profile is not used: a pressure drives the flow"});

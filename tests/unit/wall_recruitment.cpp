@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/wall/from_scene.hpp"
 #include "tests/support/law_cases.hpp"
 
 namespace tunica::test_support {
@@ -151,6 +152,88 @@ TEST_P(WallRecruitment, FibresBelowActivationCarryNoMoreThanTheTailOfTheArctange
     EXPECT_LE(largest(fibers), bound + 1e-15 * stress_scale(law.law, H, random_axes));
   }
   EXPECT_GE(below, 5);
+}
+
+// The exponential of the square would grow again far below the threshold, against which no tail of an
+// arctangent helps.
+TEST_P(WallRecruitment, FibresAnyDistanceBelowActivationCarryLess) {
+  for (const wall::CollagenFamily<double>& own : wall::families(GetParam().law))
+    for (const double stiffening : {own.stiffening, 20.0})
+      for (const double excess : {-1e-3, -0.1, -1.0, -8.1, -24.0}) {
+        wall::CollagenFamily<double> family = own;
+        family.stiffening = stiffening;
+        const double slope = family.energy(seed(excess)).derivative[0];
+        EXPECT_LE(std::abs(slope * family.recruitment.share(excess)),
+                  family.exponent == 2 ? 1.0001 * family.stiffness / (pi * 5e5)
+                                       : family.stiffness / (pi * 5e5 * std::abs(excess)))
+            << excess;
+        family.recruitment.sharp = true;
+        EXPECT_EQ(slope * family.recruitment.share(excess), 0);
+      }
+}
+
+// W' = alpha x (1 + O(x^2)) on both sides.
+TEST_P(WallRecruitment, TheEnergyIsSmoothAtTheThreshold) {
+  for (const wall::CollagenFamily<double>& family : wall::families(GetParam().law)) {
+    if (family.exponent == 1) continue;
+    for (const double x : {-1e-6, 0.0, 1e-6}) {
+      const auto energy = family.energy(seed(seed(seed(x))));
+      EXPECT_NEAR(energy.derivative[0].value.value, family.stiffness * x, 1e-15 * family.stiffness);
+      EXPECT_NEAR(energy.derivative[0].derivative[0].value / family.stiffness, 1, 1e-11);
+      EXPECT_NEAR(energy.derivative[0].derivative[0].derivative[0] / family.stiffness, 0, 1e-4);
+    }
+  }
+}
+
+/// In mmHg, of a wall that has not moved.
+double greatest_stress_at_rest(const std::vector<std::string>& overrides, const std::string& tissue = "") {
+  const Scene scene = parse_scene("[wall]\n" + tissue, "at rest", ".", overrides);
+  double greatest = 0;
+  for (const auto& layer : wall::wall_from_scene(SeededScene<double>(scene))) {
+    const Tensor<double> stress = wall::piola(layer.law, Tensor<double>{}, axes);
+    for (const double entry : stress.entries) EXPECT_TRUE(std::isfinite(entry));
+    greatest = std::max(greatest, largest(stress));
+  }
+  return greatest / 1333.22387;
+}
+
+TEST(WallAtRest, BearsNothingHoweverFarItsFibresAreFromTheirThreshold) {
+  constexpr double bar = 1e-3;
+  for (const char* stretch : {"4", "5"}) {
+    const std::string threshold = std::string("wall.activation_stretch=") + stretch;
+    for (const char* more : {"wall.exponent=2", "wall.exponent=1", "wall.recruitment=sharp"})
+      EXPECT_LT(greatest_stress_at_rest({threshold, more}), bar) << threshold << ' ' << more;
+  }
+  // Beyond the greatest number, which a share of nothing does not multiply to nothing.
+  for (const char* recruitment : {"smooth", "sharp"})
+    EXPECT_LT(greatest_stress_at_rest({"wall.activation_squared=25", "wall.fiber_stiffening=100",
+                                       std::string("wall.recruitment=") + recruitment}),
+              bar);
+  EXPECT_LT(greatest_stress_at_rest({},
+                                    "[[wall.families]]\nangle = 10\nactivation_stretch = 5\n"
+                                    "[[wall.families]]\nangle = -10\nactivation_squared = 24\n"),
+            bar);
+  EXPECT_LT(greatest_stress_at_rest({},
+                                    "[[wall.layers]]\nfraction = 0.4\nactivation_stretch = 5\n"
+                                    "[[wall.layers]]\nfraction = 0.6\nactivation_squared = 25\n"),
+            bar);
+}
+
+TEST(WallAtRest, BearsLessThanHalfAMillimetreWhateverItsFibres) {
+  RandomDeformation random;
+  SCOPED_TRACE(random.origin());
+  const auto set = [](const char* key, double value) {
+    return std::string(key) + '=' + std::to_string(value);
+  };
+  for (int wall = 0; wall < 200; ++wall) {
+    const std::vector<std::string> overrides{
+        set("wall.fiber_stiffness", std::pow(10, random.uniform(4, 6.5))),
+        set("wall.fiber_stiffening", std::pow(10, random.uniform(-2, 2))),
+        set("wall.fiber_angle", random.uniform(0, 80)),
+        set("wall.activation_stretch", random.uniform(1.1, 5)),
+        random.uniform(0, 1) < 0.5 ? "wall.exponent=1" : "wall.exponent=2"};
+    EXPECT_LT(greatest_stress_at_rest(overrides), 0.5) << testing::PrintToString(overrides);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Catalog, WallRecruitment, testing::ValuesIn(fiber_law_cases()), case_name);
