@@ -29,12 +29,12 @@ int run_command(const RunArguments& arguments, const Program& program) {
   program.before_computing(tier);
   const fs::path folder =
       arguments.out.empty() ? fs::path("results") / scene.name() : fs::path(arguments.out);
-  if (!arguments.quiet)
-    for (const auto& remark : scene.remarks()) spdlog::warn(remark);
-
   heed_interrupts();
   // A scene that the tier refuses leaves nothing behind: the folder is made when the run is executed.
   StoredRun run(tier, scene, folder, arguments.resume);
+  // Of a scene that is refused nothing else is said.
+  if (!arguments.quiet)
+    for (const auto& remark : scene.remarks()) spdlog::warn(remark);
   if (run.is_complete()) {
     if (!arguments.quiet) fmt::print("{}: this run is complete\n", folder.string());
     return done;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <utility>
 
 #include "app/commands/commands.hpp"
 #include "app/interrupt.hpp"
@@ -79,18 +80,20 @@ int verify_command(const VerifyArguments& arguments, const Program& program) {
   for (const Tier* tier : compared) program.before_computing(*tier);
   const fs::path folder =
       arguments.out.empty() ? fs::path("results") / (scene.name() + "-verify") : fs::path(arguments.out);
-  if (!arguments.quiet) {
-    for (const auto& remark : scene.remarks()) spdlog::warn(remark);
+  if (!arguments.quiet)
     for (const auto& reason : refused) spdlog::warn("not compared: {}", reason);
-  }
 
   heed_interrupts();
   verification::CrossTier found;
   {
     std::unique_ptr<ProgressDisplay> display;
     verification::VerifyControl control;
+    // Of a scene that is refused nothing else is said.
+    bool remarked = arguments.quiet;
     control.begin = [&](const std::string& label) {
       computation_begins();
+      if (!std::exchange(remarked, true))
+        for (const auto& remark : scene.remarks()) spdlog::warn(remark);
       remove_earlier(folder);
       display.reset();
       if (!arguments.quiet) spdlog::info("computing {}", label);
