@@ -7,6 +7,7 @@
 #include "axisym/remarks.hpp"
 #include "axisym/tangent_stability.hpp"
 #include "core/coupled/gmsh_parts.hpp"
+#include "core/coupled/locking.hpp"
 #include "core/coupled/vessel_run.hpp"
 #include "core/element/gmsh_file.hpp"
 #include "core/error.hpp"
@@ -60,6 +61,10 @@ class AxisymVessel final : public coupled::Vessel {
 
   std::vector<std::string> warnings() const override {
     auto warnings = remarks_on_unused_keys(scene_, *setup_);
+    const Problem& problem = setup_->problem;
+    if (const auto remark = coupled::locking_remark(problem.discretisation.element,
+                                                    problem.mesh.shape == CellShape::triangle, problem.laws))
+      warnings.push_back(*remark);
     if (scene_.text("geometry.kind") == "mesh")
       if (const auto remark = coupled::radius_remark(inlet_radius(setup_->problem.mesh), scene_))
         warnings.push_back(*remark);

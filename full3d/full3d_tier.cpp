@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "core/coupled/gmsh_parts.hpp"
+#include "core/coupled/locking.hpp"
 #include "core/coupled/vessel_run.hpp"
 #include "core/coupled/wall_strain.hpp"
 #include "core/error.hpp"
@@ -143,6 +144,10 @@ class Full3dVessel final : public coupled::Vessel {
     else if (coupled::is_far_from_incompressible(setup_->problem.laws))
       unused.push_back({{"mesh.mixed_wall"}, "the wall is far from incompressible"});
     auto warnings = scene::remarks_on(scene_, unused);
+    const Problem& problem = setup_->problem;
+    if (const auto remark = coupled::locking_remark(problem.discretisation.element,
+                                                    problem.mesh.shape == Shape::tetrahedron, problem.laws))
+      warnings.push_back(*remark);
     if (setup_->axes)
       if (const auto remark = coupled::radius_remark(inlet_radius(setup_->problem.mesh), scene_))
         warnings.push_back(*remark);

@@ -60,6 +60,21 @@ TEST(TierRemarks, AxisymNamesWhatItsModesLeaveOut) {
   };
   EXPECT_EQ(not_mixed("0.3"), Overrides{"mesh.mixed_wall is not used: the wall is far from incompressible"});
   EXPECT_EQ(not_mixed("0.49"), Overrides{});
+  const auto near_incompressible = [&](const char* element, const char* law, const char* stiff) {
+    return remarks<AxisymTier>("cylinder_exp1.toml", with({element, law, stiff}), false);
+  };
+  const Overrides locks{
+      "the wall is 5e+05 times as stiff against changes of volume as of shape, and linear triangles and "
+      "tetrahedra lock in such tissue, so that it moves too little; write mesh.element = \"quadratic\""};
+  const char* const linear = "wall.law=linear-elastic";
+  const char* const stiff = "wall.poisson_ratio=0.499999";
+  EXPECT_EQ(near_incompressible("mesh.element=bubble", linear, stiff), locks);
+  EXPECT_EQ(near_incompressible("mesh.element=quadratic", linear, stiff), Overrides{});
+  EXPECT_EQ(near_incompressible("mesh.element=linear", linear, stiff), Overrides{});
+  EXPECT_EQ(near_incompressible("mesh.element=bubble", "wall.law=EXP1", "wall.bulk_modulus=3.8175e10"),
+            locks);
+  EXPECT_EQ(near_incompressible("mesh.element=bubble", "wall.law=EXP1", "wall.bulk_modulus=9e6"),
+            Overrides{});
   EXPECT_EQ(
       remarks<AxisymTier>("cylinder.toml", with({"inlet.waveform=pressure", "inlet.profile=natural"}), false),
       Overrides{"inlet.profile is not used: a pressure drives the flow"});
