@@ -27,6 +27,7 @@ class CellBuilder {
 
   GmshCells build() {
     choose_shape();
+    coupled::check_named(file_, 2);
     for (const GmshFile::Element& element : file_.elements)
       if (element.dimension == 2) add_cell(element);
     coupled::check_parts(file_, 2, members_);

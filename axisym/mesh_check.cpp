@@ -7,8 +7,10 @@
 #include <algorithm>
 #include <cmath>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
+#include "core/coupled/gmsh_parts.hpp"
 #include "core/error.hpp"
 
 namespace tunica::axisym {
@@ -90,6 +92,8 @@ void check_order(const Mesh& mesh, Part part, const std::string& label) {
                      name(part), listed(passed), listed(expected)));
 }
 
+}  // namespace
+
 void check_plane(const Mesh& mesh, Boundary boundary, const std::string& label) {
   double low = INFINITY, high = -INFINITY;
   for (const Edge& edge : mesh.edges) {
@@ -107,7 +111,22 @@ void check_plane(const Mesh& mesh, Boundary boundary, const std::string& label) 
                        name(boundary), low, high));
 }
 
-}  // namespace
+double inclination(const Mesh& mesh, Boundary boundary) {
+  double squares = 0, area = 0;
+  for (const Edge& edge : mesh.edges) {
+    if (edge.boundary != boundary) continue;
+    const auto nodes = mesh.side_nodes(edge.cell, edge.side);
+    // From end to middle to end.
+    for (const auto& [from, to] : {std::pair{nodes[0], nodes[2]}, {nodes[2], nodes[1]}}) {
+      const std::array<double, 2>&a = mesh.points[from], &b = mesh.points[to];
+      const double across = std::abs(b[0] - a[0]), ring = (a[0] + b[0]) * across;
+      if (ring == 0) continue;
+      squares += ring * std::pow((b[1] - a[1]) / across, 2);
+      area += ring;
+    }
+  }
+  return area > 0 ? std::sqrt(squares / area) : 0;
+}
 
 std::string where(const std::array<double, 2>& point) {
   return fmt::format("(r, z) = ({:.6g}, {:.6g}) cm", point[0], point[1]);
@@ -151,13 +170,10 @@ void check_cells(const Mesh& mesh, const std::string& label, std::span<const lon
 void check_outline(const Mesh& mesh, const std::string& label) {
   for (const Part part : {Part::blood, Part::wall})
     if (mesh.has(part)) check_order(mesh, part, label);
-  if (!mesh.has(Part::blood)) return;
-  check_plane(mesh, Boundary::inlet, label);
-  check_plane(mesh, Boundary::outlet, label);
 }
 
 void check_layers(const Mesh& mesh, const std::string& label, std::span<const long> tags) {
-  constexpr const char* remedy = "number the layers wall:1, wall:2, ... from the lumen outwards";
+  constexpr const char* remedy = coupled::layers_remedy;
   const int layers = mesh.layers();
   for (const Edge& edge : mesh.edges) {
     const Cell& cell = mesh.cells[edge.cell];

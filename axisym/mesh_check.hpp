@@ -22,8 +22,14 @@ std::string cell_name(const Mesh& mesh, int cell, std::span<const long> tags = {
 void check_cells(const Mesh& mesh, const std::string& label, std::span<const long> tags = {});
 
 /// Each part is bounded by one closed line, which passes its boundaries once each in their order about the
-/// part; inlet and outlet are planes z = const.
+/// part.
 void check_outline(const Mesh& mesh, const std::string& label);
+
+/// A boundary is a plane z = const.
+void check_plane(const Mesh& mesh, Boundary boundary, const std::string& label);
+
+/// Root mean square inclination (rad, where it is small) of a boundary to planes z = const.
+double inclination(const Mesh& mesh, Boundary boundary);
 
 /// Layers follow each other from the interface to the outer surface.
 void check_layers(const Mesh& mesh, const std::string& label, std::span<const long> tags = {});

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "axisym/locate.hpp"
+#include "axisym/mesh_check.hpp"
 #include "core/coupled/gmsh_parts.hpp"
 #include "core/coupled/wall_strain.hpp"
 #include "core/error.hpp"
@@ -21,6 +22,11 @@ void set_ends(const Scene& scene, Problem& problem) {
   for (const Boundary boundary :
        {Boundary::inlet, Boundary::outlet, Boundary::wall_inlet, Boundary::wall_outlet})
     problem.on(boundary).displacement = {clamped, true};
+  if (!clamped)
+    for (const Boundary boundary :
+         {Boundary::inlet, Boundary::outlet, Boundary::wall_inlet, Boundary::wall_outlet})
+      coupled::check_sliding(boundary, inclination(problem.mesh, boundary),
+                             scene.number("accuracy.tolerance"));
   // Blood comes in along the axis (paper, 2.3). Where it may also come in from the side, its momentum makes
   // the pressure condition unstable. A section that is free to widen stands for one within a longer artery.
   problem.on(Boundary::inlet).velocity[0] = true;
@@ -47,6 +53,7 @@ void set_inlet(const Scene& scene, Setup& setup) {
   const Setup* const here = &setup;
   if (!coupled::needs_profile(scene, setup, problem.inlet)) return;
   problem.on(Boundary::inlet).velocity = {true, true};
+  check_plane(problem.mesh, Boundary::inlet, "geometry.file with inlet.profile = \"parabolic\"");
   const double radius = inlet_radius(problem.mesh);
   const double height = extent(problem.mesh).inlet;
   const double peak = 1 / parabola_flux(problem, radius);

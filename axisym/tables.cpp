@@ -8,6 +8,7 @@
 #include <numbers>
 #include <utility>
 
+#include "core/coupled/wall_strain.hpp"
 #include "core/error.hpp"
 #include "core/quadrature.hpp"
 
@@ -228,8 +229,14 @@ Tables tabulate(const Problem& problem) {
   tables.axes = WallAxes(problem, tables.wall);
   for (WallTable& table : tables.wall) {
     const auto rule = wall_rule(problem, table.cell);
-    for (std::size_t q = 0; q < table.points.size(); ++q)
-      table.points[q].axes = tables.axes.at(table.cell, rule.points[q]);
+    for (std::size_t q = 0; q < table.points.size(); ++q) {
+      const auto axes = table.points[q].axes = tables.axes.at(table.cell, rule.points[q]);
+      if (coupled::lacks_directions(problem.laws[table.layer], axes)) {
+        const Point place = image(problem.mesh, table.cell, rule.points[q]).point;
+        coupled::refuse_fibers(fmt::format("wall cell at r = {:.6g}, z = {:.6g} cm", place[0], place[1]),
+                               problem.discretisation.element);
+      }
+    }
   }
   for (const Edge& edge : problem.mesh.edges)
     if (edge.boundary != Boundary::axis) tables.sides.push_back(side_table(problem, edge));

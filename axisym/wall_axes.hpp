@@ -25,7 +25,8 @@ class WallAxes {
   /// `wall`: the wall's cells with their weights and shape functions. Keeps a reference to the mesh.
   WallAxes(const Problem& problem, const std::vector<WallTable>& wall);
 
-  /// At a local point of a wall cell. Throws InvalidInput where the mesh leaves phi constant.
+  /// At a local point of a wall cell; the axis is NaN where the mesh leaves phi constant, as in a cell with
+  /// all of its corners on one end face.
   wall::MaterialAxes at(int cell, const element::Local& local) const;
 
  private:

@@ -69,9 +69,10 @@ wall::MaterialAxes WallReader::axes(std::span<const Place> places) const {
   Vector<double> sum{};
   for (const Place& place : places) {
     const auto axes = assembler_.tables().axes.at(place.cell, place.local);
+    if (std::isnan(axes.axial[0])) continue;
     for (int i = 0; i < 3; ++i) sum[i] += axes.axial[i];
   }
-  const double length = std::hypot(sum[0], sum[2]);
+  const double length = std::hypot(sum[0], sum[2]);  // 0 leads to NaN: no direction
   return {{0, 1, 0}, {sum[0] / length, 0, sum[2] / length}};
 }
 

@@ -43,7 +43,8 @@ class WallReader {
   /// Mean over the places: those where cells of a layer meet.
   WallStrain mean(std::span<const Place> places, std::span<const double> y) const;
   Tensor<double> cauchy(int layer, const WallStrain& strain, const wall::MaterialAxes& axes) const;
-  /// Mean directions of the wall over the places, in the unloaded vessel.
+  /// Mean directions of the wall over the places, in the unloaded vessel; the axis is NaN where no place has
+  /// one.
   wall::MaterialAxes axes(std::span<const Place> places) const;
 
  private:

@@ -167,6 +167,15 @@ std::optional<double> GivenCourse::distance_to_wall(const Station& station,
   return {};
 }
 
+Vector<double> GivenCourse::radial_at(const Place& place, const Point& point,
+                                      const Vector<double>& otherwise) const {
+  const auto own = directions_of(setup_.axes->at(place.cell, place.local)).radial;
+  if (!std::isnan(own[0])) return own;
+  const auto meeting = locator_.meeting(place);
+  const auto mean = mean_directions(setup_.problem, meeting, point).radial;
+  return std::isnan(mean[0]) ? otherwise : mean;
+}
+
 Across GivenCourse::across(double angle) const {
   const Vector<double> y_axis = cross(middle_.tangent, middle_.x_axis);
   Vector<double> direction{};
@@ -181,7 +190,7 @@ Across GivenCourse::across(double angle) const {
                     middle_.centre[0], middle_.centre[1], middle_.centre[2], angle * 180 / std::numbers::pi));
   Across line{moved(middle_.centre, *radius, direction), {}, *radius, 0};
   const auto place = locator_.find(line.begin, Part::wall);
-  line.out = directions_of(setup_.axes->at(place->cell, place->local)).radial;
+  line.out = radial_at(*place, line.begin, direction);
   const auto in_wall = [&](double depth) { return locator_.find(line.at(depth), Part::wall).has_value(); };
   const double step = 0.05 * thickness_;
   double depth = 0;

@@ -45,6 +45,9 @@ class GivenCourse final : public Course {
   Station middle() const;
   /// Distance of the wall from a station's centre along a direction.
   std::optional<double> distance_to_wall(const Station& station, const Vector<double>& direction) const;
+  /// Direction across the wall at a place of it: of its cell, of cells that meet there, or the other one
+  /// where the mesh leaves them open.
+  Vector<double> radial_at(const Place& place, const Point& point, const Vector<double>& otherwise) const;
   /// Ends of the faces' depths that the line crosses one cell at; nothing where it enters or leaves the cell
   /// through a side.
   std::optional<double> end_of_cell(const Across& across, double depth) const;

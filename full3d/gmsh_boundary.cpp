@@ -154,8 +154,8 @@ class Marker {
         if (own.part == Part::wall) require_layer(own, 0, "touches the blood", cell, face);
         mesh_.faces.push_back({cell, face, Boundary::interface});
       } else if (own.part == Part::wall && std::abs(own.layer - other.layer) > 1) {
-        refuse(fmt::format("wall:{} touches wall:{}, at {}; number the layers from the lumen outwards",
-                           own.layer + 1, other.layer + 1, at(cell, face)));
+        refuse(fmt::format("wall:{} touches wall:{}, at {}; {}", own.layer + 1, other.layer + 1,
+                           at(cell, face), coupled::layers_remedy));
       }
       return;
     }
@@ -183,8 +183,8 @@ class Marker {
 
   void require_layer(const Cell& cell, int layer, const char* what, int index, int face) const {
     if (cell.layer == layer) return;
-    refuse(fmt::format("wall:{} {}, at {}; number the layers from the lumen outwards", cell.layer + 1, what,
-                       at(index, face)));
+    refuse(
+        fmt::format("wall:{} {}, at {}; {}", cell.layer + 1, what, at(index, face), coupled::layers_remedy));
   }
 
   void require_one_piece(Boundary boundary) const {

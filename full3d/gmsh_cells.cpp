@@ -2,11 +2,14 @@
 #include "full3d/gmsh_cells.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <numeric>
+#include <set>
 #include <utility>
 
 #include "core/coupled/gmsh_parts.hpp"
@@ -78,6 +81,7 @@ class CellBuilder {
 
   GmshCells build() {
     choose_shape();
+    coupled::check_named(file_, 3);
     for (const GmshFile::Element& element : file_.elements)
       if (element.dimension == 3) add_cell(element);
     coupled::check_parts(file_, 3, members_);
@@ -104,17 +108,35 @@ class CellBuilder {
   }
 
   void choose_shape() {
-    const auto count = [this](int corners) {
-      return std::count_if(file_.elements.begin(), file_.elements.end(), [=](const GmshFile::Element& e) {
-        return e.dimension == 3 && e.corners == corners;
-      });
+    struct Kind {
+      int corners;
+      const char* name;
+      long count = 0;
+      std::set<std::string> parts{};
     };
-    const auto tetrahedra = count(4), hexahedra = count(8);
-    if (tetrahedra == 0 && hexahedra == 0)
+    Kind kinds[] = {{4, "tetrahedra"}, {8, "hexahedra"}, {6, "prisms"}, {5, "pyramids"}};
+    for (const GmshFile::Element& element : file_.elements) {
+      if (element.dimension != 3) continue;
+      auto& kind = *std::find_if(std::begin(kinds), std::end(kinds),
+                                 [&](const Kind& each) { return each.corners == element.corners; });
+      ++kind.count;
+      const auto& names = file_.groups[element.group].names;
+      kind.parts.insert(names.begin(), names.end());
+    }
+    std::vector<std::string> found;
+    for (const Kind& kind : kinds)
+      if (kind.count > 0)
+        found.push_back(
+            fmt::format("{} {}{}", kind.count, kind.name,
+                        kind.parts.empty() ? "" : fmt::format(" ({})", fmt::join(kind.parts, ", "))));
+    if (found.empty())
       refuse("there is no tetrahedron and no hexahedron; mesh the volumes (gmsh -3) before saving");
-    if (tetrahedra > 0 && hexahedra > 0)
-      refuse(fmt::format("{} tetrahedra and {} hexahedra are mixed; take one shape for all volumes",
-                         tetrahedra, hexahedra));
+    const long tetrahedra = kinds[0].count, hexahedra = kinds[1].count;
+    if (found.size() > 1 || tetrahedra + hexahedra == 0)
+      refuse(
+          fmt::format("the mesh has {}; all cells have to be tetrahedra, or all hexahedra: leave out every "
+                      "Recombine (of surfaces, in Extrude {{...}}, Mesh.RecombineAll) to have tetrahedra",
+                      fmt::join(found, ", ")));
     result_.mesh.shape = tetrahedra > 0 ? Shape::tetrahedron : Shape::hexahedron;
     for (const GmshFile::Node& node : file_.nodes) points().push_back(node.position);
   }

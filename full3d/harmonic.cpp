@@ -109,11 +109,13 @@ std::array<Vector<double>, 2> gradients(const Mesh& mesh, std::span<const double
   const auto shapes = element::solid::shapes_at(mesh.shape, basis, local);
   const PlacedShapes at = placed(mesh, cell, shapes);
   std::array<element::solid::Local, 2> slopes{};
+  // Slopes add up to 0: without a constant the gradient of what is constant in the cell is 0, not rounding.
+  const int any = mesh.node(cell, basis, 0);
   for (int k = 0; k < shapes.count; ++k) {
     const int node = mesh.node(cell, basis, k);
     for (int c = 0; c < 3; ++c) {
-      slopes[0][c] += shapes.slope[k][c] * first[node];
-      slopes[1][c] += shapes.slope[k][c] * second[node];
+      slopes[0][c] += shapes.slope[k][c] * (first[node] - first[any]);
+      slopes[1][c] += shapes.slope[k][c] * (second[node] - second[any]);
     }
   }
   return {at.slope(slopes[0]), at.slope(slopes[1])};

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -46,8 +47,13 @@ Surface surface(const Mesh& mesh, Boundary boundary) {
   }
   for (double& x : surface.centre) x /= surface.area;
   const double size = std::sqrt(dot(surface.normal, surface.normal));
+  surface.projected = size;
   for (double& n : surface.normal) n /= size;
   return surface;
+}
+
+double inclination(const Surface& surface) {
+  return std::sqrt(std::max(0.0, 2 * (surface.area / surface.projected - 1)));
 }
 
 MeanTube mean_tube(const Mesh& mesh) {

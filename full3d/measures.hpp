@@ -13,10 +13,15 @@ double volume(const Mesh& mesh, Part part);
 /// seen from the wall.
 struct Surface {
   double area = 0;
+  double projected = 0;  ///< along the normal, cm2
   Point centre{};
   Vector<double> normal{};
 };
 Surface surface(const Mesh& mesh, Boundary boundary);
+
+/// Inclination of the faces of a boundary to its mean plane, rad: the root of 2 (area/projected - 1), the
+/// root mean square where it is small.
+double inclination(const Surface& surface);
 
 /// The straight round tube whose wall has the volume V and the surfaces A_i and A_o of a mesh's:
 /// h = 2V/(A_i + A_o), R = h A_i/(A_o - A_i), L = A_i/(2 pi R). Throws InvalidInput for a wall that is larger

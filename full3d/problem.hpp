@@ -14,8 +14,8 @@ using coupled::InletKind;
 using coupled::OutletKind;
 using Prescribed = coupled::Prescribed<3>;
 
-/// Circumference and axis of the vessel at a point of the unloaded wall, unit vectors. The point is given
-/// both by its cell and local coordinates and by where it is.
+/// Circumference and axis of the vessel at a point of the unloaded wall, unit vectors, NaN where the mesh
+/// leaves them open. The point is given both by its cell and local coordinates and by where it is.
 using WallDirections =
     std::function<wall::MaterialAxes(int cell, const element::solid::Local& local, const Point& point)>;
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/coupled/gmsh_parts.hpp"
+#include "core/coupled/wall_strain.hpp"
 #include "core/error.hpp"
 #include "core/radial/from_scene.hpp"
 #include "full3d/gmsh.hpp"
@@ -29,8 +30,10 @@ EndAxes end_axes(const Setup& setup) {
   if (!setup.axes) return {2, setup.shape.bend_angle == 0 ? 2 : -1};
   const Mesh& mesh = setup.problem.mesh;
   const bool blood = mesh.has(Part::blood);
-  return {normal_axis(mesh, blood ? Boundary::inlet : Boundary::wall_inlet),
-          normal_axis(mesh, blood ? Boundary::outlet : Boundary::wall_outlet)};
+  // What slides or is led goes along planes or lines that are off by this angle.
+  constexpr double aligned = 1e-2;
+  return {normal_axis(mesh, blood ? Boundary::inlet : Boundary::wall_inlet, aligned),
+          normal_axis(mesh, blood ? Boundary::outlet : Boundary::wall_outlet, aligned)};
 }
 
 void set_ends(const Scene& scene, Setup& setup) {
@@ -42,6 +45,13 @@ void set_ends(const Scene& scene, Setup& setup) {
         "geometry.ends = \"sliding\" lets the ends slide in planes across the coordinate axes, in which "
         "those of "
         "a torus are not, nor those of this mesh; write \"clamped\", or geometry.kind = \"cylinder\"");
+  if (!clamped && setup.axes)
+    for (const Boundary boundary :
+         {Boundary::wall_inlet, Boundary::wall_outlet, Boundary::inlet, Boundary::outlet})
+      if (problem.mesh.has(Part::blood) || boundary == Boundary::wall_inlet ||
+          boundary == Boundary::wall_outlet)
+        coupled::check_sliding(boundary, inclination(surface(problem.mesh, boundary)),
+                               scene.number("accuracy.tolerance"));
   const auto hold = [&](Boundary boundary, int axis) {
     auto& held = problem.on(boundary).displacement;
     held = {clamped, clamped, clamped};
@@ -107,7 +117,8 @@ void set_inlet(const Scene& scene, Setup& setup) {
   }
   problem.on(Boundary::inlet).velocity = {true, true, true};
   if (setup.axes) {
-    problem.velocity = [here, profile = InletProfile(problem.mesh)](const Point& place, double time) {
+    problem.velocity = [here, profile = InletProfile(problem.mesh, scene.number("accuracy.tolerance"))](
+                           const Point& place, double time) {
       Vector<double> velocity = profile.at(place);
       for (double& component : velocity) component *= here->inlet_value(time);
       return velocity;
@@ -134,6 +145,24 @@ Mesh given_mesh(const Scene& scene, bool with_blood) {
         file.string()));
   coupled::check_unit(inlet_radius(mesh), {scene.number("geometry.radius"), file.string()});
   return adapted(mesh, element, with_blood);
+}
+
+/// Throws InvalidInput for a wall with fibres where the mesh leaves their directions open.
+void check_fibers(const Problem& problem) {
+  const Mesh& mesh = problem.mesh;
+  const auto rule = element::solid::cell_rule(mesh.shape, displacement_basis(problem.discretisation.element));
+  for (int cell = 0; cell < static_cast<int>(mesh.cells.size()); ++cell) {
+    if (mesh.cells[cell].part != Part::wall) continue;
+    const auto& law = problem.laws[mesh.cells[cell].layer];
+    if (wall::families(law).empty()) continue;
+    for (const auto& local : rule.points) {
+      const Point at = image(mesh, cell, local).point;
+      if (coupled::lacks_directions(law, problem.directions(cell, local, at)))
+        coupled::refuse_fibers(
+            fmt::format("wall cell at x = {:.6g}, y = {:.6g}, z = {:.6g} cm", at[0], at[1], at[2]),
+            problem.discretisation.element);
+    }
+  }
 }
 
 }  // namespace
@@ -171,6 +200,7 @@ std::unique_ptr<Setup> setup_of(const Scene& scene, const Resolution& resolution
   const bool with_blood = problem.mesh.has(Part::blood);
   coupled::set_conditions(scene, *setup, problem);
   coupled::check_layers(problem.mesh.layers(), problem.laws.size());
+  if (setup->axes) check_fibers(problem);
   problem.copies = setup->sector == Sector::quarter ? 4 : setup->sector == Sector::half ? 2 : 1;
   setup->wall_density = problem.wall_density;
   set_ends(scene, *setup);

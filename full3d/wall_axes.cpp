@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "full3d/wall_axes.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
 
-#include "core/error.hpp"
 #include "full3d/harmonic.hpp"
 #include "full3d/layout.hpp"
 
@@ -17,11 +14,13 @@ double length(const Vector<double>& v) {
   return std::sqrt(dot(v, v));
 }
 
-/// The vector made one of length 1; none of length 0 stays.
+constexpr Vector<double> unknown{NAN, NAN, NAN};
+
+/// The vector made one of length 1; none of no length has no direction.
 Vector<double> unit(Vector<double> v) {
   const double size = length(v);
-  if (size > 0)
-    for (double& component : v) component /= size;
+  if (!(size > 0)) return unknown;
+  for (double& component : v) component /= size;
   return v;
 }
 
@@ -36,8 +35,8 @@ Directions mean_directions(const Problem& problem, std::span<const Place> places
   for (const Place& place : places) {
     const auto own = problem.directions(place.cell, place.local, point);
     for (int i = 0; i < 3; ++i) {
-      axial[i] += own.axial[i];
-      circumferential[i] += own.circumferential[i];
+      if (!std::isnan(own.axial[i])) axial[i] += own.axial[i];
+      if (!std::isnan(own.circumferential[i])) circumferential[i] += own.circumferential[i];
     }
   }
   axial = unit(axial);
@@ -60,14 +59,9 @@ WallAxes::WallAxes(const Mesh& mesh) : mesh_(mesh) {
 
 wall::MaterialAxes WallAxes::at(int cell, const element::solid::Local& local) const {
   const auto [along, through] = gradients(mesh_, along_, through_, cell, local);
-  const Vector<double> axial = unit(along), circumferential = unit(cross(axial, through));
-  if (length(circumferential) > 0) return {circumferential, axial};
-  const Point at = image(mesh_, cell, local).point;
-  throw InvalidInput(fmt::format(
-      "mesh: the wall cell at x = {:.6g}, y = {:.6g}, z = {:.6g} cm has no direction along the vessel or "
-      "across "
-      "its wall: all of its corners lie on one boundary, or on two that meet; make cells there smaller",
-      at[0], at[1], at[2]));
+  const Vector<double> axial = unit(along), around = cross(axial, through);
+  constexpr double parallel = 1e-9;  // but for rounding
+  return {length(around) > parallel * length(through) ? unit(around) : unknown, axial};
 }
 
 }  // namespace tunica::full3d

@@ -9,13 +9,15 @@
 
 namespace tunica::full3d {
 
-/// Unit vectors of the wall: outwards, around the vessel, along it; right-handed in this order.
+/// Unit vectors of the wall: outwards, around the vessel, along it; right-handed in this order. NaN where
+/// they are not known.
 struct Directions {
   Vector<double> radial, circumferential, axial;
 };
 Directions directions_of(const wall::MaterialAxes& axes);
 
-/// Of a problem's directions at a point, their mean over some places in wall cells that meet there.
+/// Of a problem's directions at a point, their mean over some places in wall cells that meet there: over
+/// those that have one, NaN where none has.
 Directions mean_directions(const Problem& problem, std::span<const Place> places, const Point& point);
 
 /// Circumference and axis of the wall of a vessel of any shape, from harmonic functions in the wall.
@@ -34,7 +36,8 @@ class WallAxes {
   /// Keeps a reference to the mesh. Throws InvalidInput for a wall that has no way through.
   explicit WallAxes(const Mesh& mesh);
 
-  /// At a local point of a wall cell. Throws InvalidInput where the mesh leaves no direction.
+  /// At a local point of a wall cell; a direction that the mesh leaves open is NaN. That happens in cells
+  /// with all of their corners on one boundary, or on two that meet, as along a crease of the surface.
   wall::MaterialAxes at(int cell, const element::solid::Local& local) const;
 
  private:

@@ -2,6 +2,7 @@
 #include "core/coupled/gmsh_parts.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
@@ -49,10 +50,61 @@ std::optional<Boundary> boundary_named(std::string_view text) {
   return {};
 }
 
+/// Physical groups of a dimension that elements are in, as "physical surfaces 3, 4, 5"; empty if there are
+/// none.
+std::string groups_in_use(const GmshFile& file, int dimension) {
+  std::set<long> tags;
+  for (const GmshFile::Group& group : file.groups)
+    if (group.dimension == dimension) tags.insert(group.tags.begin(), group.tags.end());
+  if (tags.empty()) return {};
+  constexpr std::size_t most = 12;
+  std::vector<long> shown(tags.begin(), tags.end());
+  shown.resize(std::min(shown.size(), most));
+  return fmt::format("physical {}{} {}{}", noun(dimension), tags.size() > 1 ? "s" : "",
+                     fmt::join(shown, ", "), tags.size() > most ? ", ..." : "");
+}
+
+/// What a file that names no cells has instead.
+std::string found_instead(const GmshFile& file, int dimension) {
+  std::vector<std::string> groups;
+  for (const int each : {dimension, dimension - 1})
+    if (std::string text = groups_in_use(file, each); !text.empty()) groups.push_back(std::move(text));
+  const std::string found =
+      groups.empty() ? "no physical groups" : fmt::format("{}", fmt::join(groups, " and "));
+  constexpr std::size_t most = 12;
+  std::vector<std::string> names;
+  for (const GmshFile::Name& name : file.physical_names)
+    if (names.size() < most) names.push_back(scene::in_quotes(name.text));
+  if (names.empty()) return fmt::format("{}, and no names", found);
+  return fmt::format("{}, and the names {}{}", found, fmt::join(names, ", "),
+                     file.physical_names.size() > most ? ", ..." : "");
+}
+
 }  // namespace
 
+void check_named(const GmshFile& file, int dimension) {
+  bool any_tags = false;
+  for (const GmshFile::Group& group : file.groups) {
+    if (group.dimension == dimension && !group.names.empty()) return;
+    any_tags = any_tags || !group.tags.empty();
+  }
+  const std::string found = found_instead(file, dimension);
+  if (!file.names(dimension).empty() && !any_tags && file.is_old)
+    refuse(file, fmt::format(
+                     "the file has {}, but no element is in a group: Gmsh leaves them out of format 2.2 with "
+                     "Mesh.SaveAll = 1; save it with Mesh.SaveAll = 0, or with Mesh.MshFileVersion = 4.1",
+                     found));
+  refuse(
+      file,
+      fmt::format("no physical {0} that has cells has a name; the file has {1}: name the {0}s \"blood\" and "
+                  "\"wall\" (or \"wall:1\", \"wall:2\", ...), as in Physical {2}(\"wall\") = {{2}};, and the "
+                  "{3}s \"inlet\" and \"outlet\" of the blood, \"outer\", \"wall_inlet\" and "
+                  "\"wall_outlet\" of the wall",
+                  noun(dimension), found, dimension == 3 ? "Volume" : "Surface", noun(dimension - 1)));
+}
+
 Membership membership_of(const GmshFile& file, const GmshFile::Element& element, const std::string& cell) {
-  const std::vector<std::string>& group = file.groups[element.group];
+  const std::vector<std::string>& group = file.groups[element.group].names;
   const char* const kind = noun(element.dimension);
   const std::string remedy = fmt::format(
       "put each {0} into one physical {0} \"blood\", \"wall\" or \"wall:1\", \"wall:2\", ... from "
@@ -100,7 +152,7 @@ void check_parts(const GmshFile& file, int dimension, std::span<Membership> cell
 
 std::optional<Boundary> boundary_of(const GmshFile& file, const GmshFile::Element& element) {
   std::optional<Boundary> boundary;
-  for (const std::string& each : file.groups[element.group]) {
+  for (const std::string& each : file.groups[element.group].names) {
     const auto found = boundary_named(each);
     if (!found) continue;
     if (boundary && boundary != found)
@@ -116,7 +168,7 @@ void check_boundaries_named(const GmshFile& file, int dimension, bool blood, boo
   std::set<std::string, std::less<>> used;
   for (const GmshFile::Element& element : file.elements)
     if (element.dimension == dimension)
-      used.insert(file.groups[element.group].begin(), file.groups[element.group].end());
+      used.insert(file.groups[element.group].names.begin(), file.groups[element.group].names.end());
   const auto need = [&](Boundary boundary, const char* what) {
     const std::string_view wanted = name(boundary);
     if (used.contains(wanted)) return;
@@ -147,6 +199,16 @@ void check_layers(int of_mesh, std::size_t of_scene) {
       "geometry.file has {} layer{} of the wall, the scene describes {}; give each layer of the mesh its "
       "[[wall.layers]], and no more",
       of_mesh, of_mesh == 1 ? "" : "s", of_scene));
+}
+
+void check_sliding(Boundary boundary, double inclination, double tolerance) {
+  if (!(inclination > tolerance)) return;
+  throw InvalidInput(
+      fmt::format("geometry.ends = \"sliding\" lets the {} slide in its plane, but it is inclined to that by "
+                  "{:.3g} (root "
+                  "mean square), and accuracy.tolerance allows {:g}; draw it flat, write \"clamped\", or a "
+                  "larger tolerance",
+                  name(boundary), inclination, tolerance));
 }
 
 void require_pressure(bool is_pressure) {

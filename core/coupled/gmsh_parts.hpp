@@ -20,6 +20,9 @@ struct Membership {
   int layer;  ///< from 0; of a wall that is not divided -1, until check_parts makes it 0
 };
 
+/// Throws InvalidInput for a file in which no cell is in a part with a name, and says what it has instead.
+void check_named(const element::GmshFile& file, int dimension);
+
 /// Part and layer of a cell that messages call `cell`. Throws InvalidInput for cells in no named group, in
 /// several, or in one of another name.
 Membership membership_of(const element::GmshFile& file, const element::GmshFile::Element& element,
@@ -35,8 +38,18 @@ std::optional<Boundary> boundary_of(const element::GmshFile& file, const element
 /// Throws InvalidInput when a boundary that the parts have to have is named nowhere.
 void check_boundaries_named(const element::GmshFile& file, int dimension, bool blood, bool wall);
 
+/// What to change in a mesh whose layers do not lie one around the other.
+inline constexpr const char* layers_remedy =
+    "each layer lies all around the one before, numbered wall:1, wall:2, ... from the lumen outwards (tissue "
+    "that "
+    "fills only a part of a layer, as a plaque, is not computed: give it the layer's name)";
+
 /// Throws InvalidInput for a mesh of another number of layers than the scene's.
 void check_layers(int of_mesh, std::size_t of_scene);
+/// Throws InvalidInput for an end of a mesh that is too uneven to slide: each node slides in a plane of its
+/// own, and what holds it pushes askew to the faces, which shears the wall by the inclination's (rad) share
+/// of its stress.
+void check_sliding(Boundary boundary, double inclination, double tolerance);
 /// Throws InvalidInput for a mesh of a wall alone under anything but a pressure.
 void require_pressure(bool is_pressure);
 

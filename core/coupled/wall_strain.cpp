@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/coupled/wall_strain.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+
+#include "core/error.hpp"
 
 namespace tunica::coupled {
 
@@ -26,6 +30,21 @@ bool is_far_from_incompressible(const std::vector<wall::Law<double>>& laws) {
   return std::all_of(laws.begin(), laws.end(), [](const wall::Law<double>& law) {
     return physics::pointwise_volumetric_share(law) == 1;
   });
+}
+
+bool lacks_directions(const wall::Law<double>& law, const wall::MaterialAxes& axes) {
+  return (std::isnan(axes.circumferential[0]) || std::isnan(axes.axial[0])) && !wall::families(law).empty();
+}
+
+void refuse_fibers(const std::string& cell_at, Element element) {
+  throw InvalidInput(fmt::format(
+      "mesh: fibres have no direction in the {}: all of its corners lie on one boundary, or on two that "
+      "meet; "
+      "make cells there so small that one corner is inside the wall{}, or take a law without fibres",
+      cell_at,
+      element == Element::quadratic
+          ? ""
+          : ", write mesh.element = \"quadratic\", whose nodes between corners suffice"));
 }
 
 std::vector<int> distinct_families(const wall::Law<double>& law) {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <string>
 #include <vector>
 
+#include "core/coupled/conditions.hpp"
 #include "core/physics/wall_momentum.hpp"
 
 namespace tunica::coupled {
@@ -24,6 +26,11 @@ Tensor<double> cauchy(const wall::Law<double>& law, const WallStrain& strain, co
 
 /// No cell interpolates the pressure of any of these on its own.
 bool is_far_from_incompressible(const std::vector<wall::Law<double>>& laws);
+
+/// True where a law has fibres and a mesh leaves open (NaN) one of the directions that they are laid along.
+bool lacks_directions(const wall::Law<double>& law, const wall::MaterialAxes& axes);
+/// Throws InvalidInput for a cell where that is so; `cell_at` names it and its place.
+[[noreturn]] void refuse_fibers(const std::string& cell_at, Element element);
 
 /// Families of a law that do not act like an earlier one where the vessel is its own mirror image, as
 /// families of equal |angle| and threshold do.

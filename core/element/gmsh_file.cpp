@@ -4,15 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <limits>
 #include <map>
 #include <set>
-#include <sstream>
 #include <unordered_map>
 #include <utility>
 
-#include "core/element/gmsh_text.hpp"
+#include "core/element/gmsh_format.hpp"
+#include "core/element/gmsh_reader.hpp"
 #include "core/error.hpp"
 #include "core/scene/message.hpp"
 #include "core/scene/text.hpp"
@@ -27,33 +26,32 @@ constexpr std::size_t largest_mesh = 200'000'000;
 constexpr long most = std::numeric_limits<int>::max();
 constexpr long most_tag = std::numeric_limits<long>::max();
 
-/// Gmsh's types that can be read, and those that meshes of other orders or dimensions are likely to hold.
-struct Type {
-  int number, dimension, corners, nodes;
-};
-constexpr Type types[] = {{15, 0, 1, 1}, {1, 1, 2, 2},   {8, 1, 2, 3},  {2, 2, 3, 3}, {9, 2, 3, 6},
-                          {3, 2, 4, 4},  {16, 2, 4, 8},  {10, 2, 4, 9}, {4, 3, 4, 4}, {11, 3, 4, 10},
-                          {5, 3, 8, 8},  {17, 3, 8, 20}, {12, 3, 8, 27}};
+using Width = GmshReader::Width;
+
 constexpr const char* plane_types_remedy =
     "allowed are lines, triangles and quadrilaterals of order 1 or 2 (types 1, 8, 2, 9, 3, 16, 10) and "
     "points: mesh in two dimensions with Mesh.ElementOrder = 2 or 1";
 constexpr const char* solid_types_remedy =
     "allowed are tetrahedra and hexahedra of order 1 or 2 (types 4, 11, 5, 17, 12), the faces and lines that "
     "bound them, and points: mesh in three dimensions with Mesh.ElementOrder = 2 or 1";
+/// No more than two dimensions are of use, and the cells seem to have three.
+constexpr const char* solid_in_plane =
+    "a vessel in space, of which the axisymmetric tier takes the half plane: use --tier full3d, or mesh in "
+    "two "
+    "dimensions (gmsh -2)";
 
 class Parser {
  public:
   Parser(std::string_view text, const std::string& label, int dimensions)
-      : text_(text, label), dimensions_(dimensions) {
+      : all_(text), text_(text, label), dimensions_(dimensions) {
     file_.label = label;
   }
 
   GmshFile parse() {
-    if (text_.word() != "$MeshFormat")
-      text_.refuse("does not begin with $MeshFormat; it is no Gmsh mesh: save one as *.msh");
-    text_.enter("MeshFormat");
-    read_format();
-    text_.leave();
+    format_ = read_gmsh_format(text_);
+    file_.is_old = format_.is_old;
+    if (!format_.is_binary && all_.find('\0') != std::string_view::npos)
+      text_.refuse("the file is said to be text but holds bytes that are none; save the mesh again");
     std::set<std::string, std::less<>> seen;
     while (!text_.at_end()) {
       const std::string_view word = text_.word();
@@ -74,8 +72,13 @@ class Parser {
       }
       if (section == "PhysicalNames") read_names();
       if (section == "Entities") read_entities();
-      if (section == "Nodes") version_four_ ? read_node_blocks() : read_nodes();
-      if (section == "Elements") version_four_ ? read_element_blocks() : read_elements();
+      if (section == "Nodes") format_.is_old ? read_nodes() : read_node_blocks();
+      if (section == "Elements") {
+        if (!format_.is_old)
+          read_element_blocks();
+        else
+          format_.is_binary ? read_elements_in_bytes() : read_elements();
+      }
       text_.leave();
     }
     for (const char* needed : {"Nodes", "Elements"})
@@ -94,17 +97,6 @@ class Parser {
     throw InvalidInput(fmt::format("{}: {}", file_.label, why));
   }
 
-  void read_format() {
-    const std::string version(text_.word());
-    if (version != "2.2" && version != "4.1")
-      text_.refuse(fmt::format("format {}; allowed are 2.2 and 4.1: save with Mesh.MshFileVersion = 4.1",
-                               scene::in_quotes(version)));
-    version_four_ = version == "4.1";
-    if (text_.integer("the file type", 0, most) != 0)
-      text_.refuse("the mesh is binary; save it as ASCII (Mesh.Binary = 0)");
-    text_.integer("the size of a number", 1, most);
-  }
-
   void read_names() {
     const long count = text_.count("the number of physical names");
     for (long k = 0; k < count; ++k) {
@@ -114,7 +106,15 @@ class Parser {
     }
   }
 
+  /// Sections of the new format have nothing but numbers.
+  void begin_numbers() {
+    if (format_.is_binary) text_.bytes_follow();
+  }
+  /// Tags of nodes and elements, and counts of what has them.
+  long large(std::string_view what) { return text_.integer(what, 0, most_tag, Width::eight); }
+
   void read_entities() {
+    begin_numbers();
     long counts[4];
     for (long& count : counts) count = text_.count("the number of entities");
     for (int dimension = 0; dimension < 4; ++dimension) {
@@ -150,6 +150,7 @@ class Parser {
 
   void read_nodes() {
     const long count = text_.count("the number of nodes");
+    begin_numbers();
     for (long k = 0; k < count; ++k) {
       const long tag = text_.integer("the tag of a node", 0, most_tag);
       add_node(tag, read_position());
@@ -157,16 +158,17 @@ class Parser {
   }
 
   void read_node_blocks() {
+    begin_numbers();
     const long blocks = text_.count("the number of blocks");
     const long count = text_.count("the number of nodes");
-    for (const char* end : {"the least tag", "the greatest tag"}) text_.integer(end, 0, most_tag);
+    for (const char* end : {"the least tag", "the greatest tag"}) large(end);
     for (long k = 0; k < blocks; ++k) {
       const int dimension = static_cast<int>(text_.integer("the dimension of a block", 0, 3));
       text_.integer("the entity of a block", -most, most);
       const bool parametric = text_.integer("whether a block is parametric", 0, 1) == 1;
       const long nodes = text_.count("the number of nodes in a block");
       std::vector<long> tags;
-      for (long i = 0; i < nodes; ++i) tags.push_back(text_.integer("the tag of a node", 0, most_tag));
+      for (long i = 0; i < nodes; ++i) tags.push_back(large("the tag of a node"));
       for (const long tag : tags) {
         add_node(tag, read_position());
         for (int i = 0; parametric && i < dimension; ++i) text_.skip("a parameter of a node");
@@ -181,27 +183,31 @@ class Parser {
                                what, found));
   }
 
-  const Type& type(long tag, long number) {
-    const auto found = std::find_if(std::begin(types), std::end(types), [&](const Type& t) {
-      return t.number == number && t.dimension <= dimensions_;
-    });
-    if (found == std::end(types))
-      text_.refuse(fmt::format("element {} has the type {}; {}", tag, number,
-                               dimensions_ == 2 ? plane_types_remedy : solid_types_remedy));
+  const GmshType& type(long tag, long number) {
+    const GmshType* const found = gmsh_type(number);
+    constexpr int highest = 2;  // order
+    if (!found || found->order > highest || found->dimension > dimensions_)
+      text_.refuse(
+          fmt::format("element {} has the type {}{}; {}", tag, number,
+                      found && found->order > highest ? fmt::format(" of order {}", found->order) : "",
+                      found && found->dimension > dimensions_ ? solid_in_plane
+                      : dimensions_ == 2                      ? plane_types_remedy
+                                                              : solid_types_remedy));
     return *found;
   }
 
   /// Node tags, which become places once all nodes are known, follow those of the elements before.
-  void read_element(long tag, const Type& type, int group) {
+  void read_element(long tag, const GmshType& type, int group) {
     for (int i = 0; i < type.nodes; ++i) {
-      const long node = text_.integer("a node of an element", 0, most_tag);
+      const long node = text_.integer("a node of an element", 0, most_tag, node_width());
       if (is_kept(type)) node_tags_.push_back(node);
     }
     if (is_kept(type)) file_.elements.push_back({tag, type.dimension, type.corners, type.nodes, {}, group});
   }
+  Width node_width() const { return format_.is_old ? Width::four : Width::eight; }
 
   /// Cells and what bounds them.
-  bool is_kept(const Type& type) const { return type.dimension >= dimensions_ - 1; }
+  bool is_kept(const GmshType& type) const { return type.dimension >= dimensions_ - 1; }
 
   int group_of(int dimension, const PhysicalTags& tags) {
     const auto next = static_cast<int>(tags_of_group_.size());
@@ -210,25 +216,52 @@ class Parser {
     return found->second;
   }
 
+  /// Of format 2.2: the first is the physical one, the others are none of a physical group.
+  PhysicalTags read_tags(long count) {
+    PhysicalTags physical;
+    for (long i = 0; i < count; ++i) {
+      const long each = text_.integer("a tag of an element", -most, most);
+      if (i == 0 && each != 0) physical.push_back(std::abs(each));
+    }
+    return physical;
+  }
+
   void read_elements() {
     const long count = text_.count("the number of elements");
     for (long k = 0; k < count; ++k) {
       const long tag = text_.integer("the tag of an element", 0, most_tag);
-      const Type& kind = type(tag, text_.integer("the type of an element", 0, most));
-      const long tags = text_.count("the number of tags of an element");
-      PhysicalTags physical;
-      for (long i = 0; i < tags; ++i) {
-        const long each = text_.integer("a tag of an element", -most, most);
-        if (i == 0 && each != 0) physical.push_back(std::abs(each));
-      }
+      const GmshType& kind = type(tag, text_.integer("the type of an element", 0, most));
+      const PhysicalTags physical = read_tags(text_.count("the number of tags of an element"));
       read_element(tag, kind, group_of(kind.dimension, physical));
     }
   }
 
+  /// In bytes elements of a type and number of tags follow each other.
+  void read_elements_in_bytes() {
+    const long count = text_.count("the number of elements");
+    begin_numbers();
+    long found = 0;
+    while (found < count) {
+      const long number = text_.integer("the type of the elements of a block", 0, most);
+      const long elements = text_.count("the number of elements in a block", Width::four);
+      const long tags = text_.count("the number of tags of an element", Width::four);
+      if (elements == 0) text_.refuse("a block of no elements; the file is damaged: save the mesh again");
+      for (long i = 0; i < elements; ++i) {
+        const long tag = text_.integer("the tag of an element", 0, most_tag);
+        const GmshType& kind = type(tag, number);
+        const PhysicalTags physical = read_tags(tags);
+        read_element(tag, kind, group_of(kind.dimension, physical));
+      }
+      found += elements;
+    }
+    expect_total("elements", count, found);
+  }
+
   void read_element_blocks() {
+    begin_numbers();
     const long blocks = text_.count("the number of blocks");
     const long count = text_.count("the number of elements");
-    for (const char* end : {"the least tag", "the greatest tag"}) text_.integer(end, 0, most_tag);
+    for (const char* end : {"the least tag", "the greatest tag"}) large(end);
     long found = 0;
     for (long k = 0; k < blocks; ++k) {
       const int dimension = static_cast<int>(text_.integer("the dimension of a block", 0, 3));
@@ -239,8 +272,8 @@ class Parser {
       const int group =
           group_of(dimension, physical == tags_of_entity_.end() ? PhysicalTags{} : physical->second);
       for (long i = 0; i < elements; ++i) {
-        const long tag = text_.integer("the tag of an element", 0, most_tag);
-        const Type& kind = type(tag, number);
+        const long tag = large("the tag of an element");
+        const GmshType& kind = type(tag, number);
         if (kind.dimension != dimension)
           text_.refuse(fmt::format("element {} of type {} in a block of dimension {}; save the mesh again",
                                    tag, number, dimension));
@@ -255,10 +288,10 @@ class Parser {
     std::map<std::pair<int, long>, std::string> names;
     for (const auto& [dimension, tag, text] : file_.physical_names) names[{dimension, std::abs(tag)}] = text;
     for (const auto& [dimension, tags] : tags_of_group_) {
-      std::vector<std::string> group;
+      GmshFile::Group group{dimension, tags, {}};
       for (const long tag : tags)
         if (const auto found = names.find({dimension, tag}); found != names.end())
-          group.push_back(found->second);
+          group.names.push_back(found->second);
       file_.groups.push_back(std::move(group));
     }
   }
@@ -278,10 +311,11 @@ class Parser {
     }
   }
 
-  GmshText text_;
+  std::string_view all_;
+  GmshReader text_;
   int dimensions_;
   GmshFile file_;
-  bool version_four_ = false;
+  GmshFormat format_;
   std::map<std::pair<int, long>, PhysicalTags> tags_of_entity_;  ///< by dimension and entity
   std::map<std::pair<int, PhysicalTags>, int> groups_;
   std::vector<std::pair<int, PhysicalTags>> tags_of_group_;
@@ -299,8 +333,6 @@ std::vector<std::string> GmshFile::names(int dimension) const {
 }
 
 GmshFile parse_gmsh_file(std::string_view text, const std::string& label, int dimensions) {
-  if (text.find('\0') != std::string_view::npos)
-    throw InvalidInput(fmt::format("{}: the mesh is binary; save it as ASCII (Mesh.Binary = 0)", label));
   return Parser(text, label, dimensions).parse();
 }
 
@@ -310,18 +342,6 @@ std::string load_gmsh(const std::filesystem::path& file) {
 
 std::string gmsh_label(const std::filesystem::path& file) {
   return fmt::format("mesh file {}", scene::one_line(file.string(), 400));
-}
-
-int gmsh_dimensions(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  std::string line;
-  while (std::getline(stream, line) && !line.starts_with("$PhysicalNames"))
-    if (line.starts_with("$Nodes") || line.starts_with("$Elements")) return 0;
-  int most = 0, dimension = 0;
-  while (std::getline(stream, line) && !line.starts_with('$'))
-    if (std::string name; std::istringstream(line) >> dimension >> name >> name)
-      most = std::max(most, dimension);
-  return most;
 }
 
 }  // namespace tunica::element

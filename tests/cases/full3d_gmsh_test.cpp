@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Vessels from Gmsh files in the 3D tier: those that it can also mesh itself, and one that the 2D tier reads.
+#include <cmath>
 #include <fstream>
+#include <random>
 
 #include "axisym/axisym_tier.hpp"
+#include "core/error.hpp"
 #include "tests/support/full3d_runs.hpp"
 #include "tests/support/solid_gmsh.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -43,6 +46,18 @@ const std::vector<double>& values(const Result& result, const std::string& colum
 /// Greatest difference of a column, by its range.
 double off(const Result& a, const Result& b, const std::string& column) {
   return difference(values(a, column), values(b, column)) / range(values(b, column));
+}
+
+/// The message that refuses a scene before anything is computed.
+std::string refused(const Scene& scene) {
+  const full3d::Ranks ranks;
+  full3d::Team team(ranks);
+  try {
+    full3d::Full3dTier(team).prepare(scene);
+  } catch (const InvalidInput& error) {
+    return error.what();
+  }
+  return "not refused";
 }
 
 TEST_F(FromFile, ATorusIsTheBuiltInOne) {
@@ -125,6 +140,60 @@ TEST_F(FromFile, ANarrowedArteryIsThatOfTheHalfPlane) {
     EXPECT_LT(off(space, half, std::string("radial_displacement.") + point), 1.5e-2) << point;
   for (const char* point : {"P1", "P2", "P3"})
     EXPECT_LT(off(space, half, std::string("von_mises.") + point), 3e-2) << point;
+}
+
+// What meshers leave of a plane plays no part where a pressure drives a wall alone that is clamped.
+TEST_F(FromFile, UnevenEndsChangeNothingThatIsClamped) {
+  const Settings loads{"time.mode=static", "inlet.waveform=pressure", "inlet.pressure=20 mmHg",
+                       "output.field_interval=0"};
+  full3d::VesselSpec spec;
+  spec.radius = 0.033;
+  spec.layers = {0.01};
+  spec.length = 0.2;
+  spec.around_cells = 8;
+  spec.ring_cells = spec.wall_cells = 1;
+  spec.axial_cells = 4;
+  spec.shape = full3d::Shape::tetrahedron;
+  full3d::Mesh mesh = full3d::o_grid_vessel(spec);
+  const std::string law = "[wall]\nlaw = \"neo-Hookean\"\n";
+  write(mesh);
+  const Result even = run_full3d(scene(law, loads));
+  std::mt19937 random(14);
+  std::uniform_real_distribution<double> noise(-3.5e-4, 3.5e-4);
+  for (full3d::Point& x : mesh.points)
+    if (x[2] == 0 || x[2] > spec.length - 1e-9) x[2] += noise(random);
+  write(mesh);
+  const Result uneven = run_full3d(scene(law, loads));
+  for (const char* point : {"P1", "P4"}) {
+    const std::string column = std::string("radial_displacement.") + point;
+    EXPECT_NEAR(values(uneven, column).back() / values(even, column).back(), 1, 1e-2) << column;
+  }
+  // Ends that slide do so in their plane.
+  EXPECT_TRUE(refused(scene(law, joined(loads, {{"geometry.ends=sliding"}}))).find("draw it flat") !=
+              std::string::npos);
+}
+
+// A sac that leaves its artery in a sharp neck: cells in the crease have all of their corners on the outer
+// surface, and no direction across the wall.
+TEST(SharpNeck, IsComputedWithoutFibersAndRefusedWith) {
+  const fs::path file = fs::path(TUNICA_SOURCE_DIR) / "tests" / "meshes" / "sharp_neck.msh";
+  const auto neck = [&](const Settings& more) {
+    return parse_scene("[geometry]\nkind = \"mesh\"\nradius = 0.2\n[time]\nmode = \"static\"\n", "neck", ".",
+                       joined(more, {{"geometry.file=" + file.string(), "inlet.waveform=pressure",
+                                      "inlet.pressure=1 mmHg", "mesh.element=linear"}}));
+  };
+  const Result found = run_full3d(neck({"wall.law=neo-Hookean"}));
+  for (const char* point : {"P1", "P2", "P3", "P4"}) {
+    // At mid-length, on the side of the sac and on the other.
+    for (const char* angle : {"", ".180deg"}) {
+      const std::string at = std::string(point) + angle;
+      EXPECT_TRUE(std::isfinite(values(found, "radial_displacement." + at).back())) << at;
+      EXPECT_GT(values(found, "von_mises." + at).back(), 0) << at;
+    }
+    EXPECT_TRUE(std::isnan(values(found, std::string("fiber_angle.") + point).back()));
+  }
+  EXPECT_NE(refused(neck({"wall.law=EXP1+EXP2-FS"})).find("write mesh.element = \"quadratic\""),
+            std::string::npos);
 }
 
 }  // namespace

@@ -254,6 +254,23 @@ TEST(KilledRun, OfOneProcessEndsAlikeToTheLastBit) {
     EXPECT_TRUE(read_text(whole.path() / "r" / file) == read_text(folder.path() / "r" / file)) << file;
 }
 
+// Nobody says which tier: tetrahedra are no half plane, whatever they are called.
+TEST(MeshWithoutNames, IsRefusedAsTheVesselInSpaceThatItIs) {
+  const TemporaryFolder folder;
+  std::string text = read_text(fs::path(TUNICA_SOURCE_DIR) / "tests" / "meshes" / "square_tube_2_2.msh");
+  const std::size_t begin = text.find("$PhysicalNames"), end = text.find("$Nodes");
+  std::ofstream(folder.path() / "tube.msh") << text.erase(begin, end - begin);
+  std::ofstream(folder.path() / "tube.toml")
+      << "[geometry]\nkind = \"mesh\"\nfile = \"tube.msh\"\nradius = 0.5\n";
+  const Ended ended = test_support::tunica({"run", "tube.toml", "--out", "r"}, folder.path());
+  EXPECT_EQ(ended.code, 2) << ended.errors;
+  EXPECT_TRUE(is_one_line(ended.errors)) << ended.errors;
+  for (const char* words : {"physical volumes 1, 2 and physical surfaces 3, 4, 5, 6, 7, and no names",
+                            "name the volumes \"blood\""})
+    EXPECT_NE(ended.errors.find(words), std::string::npos) << ended.errors;
+  EXPECT_FALSE(fs::exists(folder.path() / "r"));
+}
+
 const std::string bend = (scenes / "tapering_bend.msh").string();
 
 struct Bad {

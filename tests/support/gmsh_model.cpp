@@ -18,7 +18,7 @@ namespace {
 int dimension_of(const GmshModel::Element& element) {
   if (element.type == 15) return 0;
   if (element.type == 1 || element.type == 8) return 1;
-  const int solid[] = {4, 5, 11, 12, 17};
+  const int solid[] = {4, 5, 6, 7, 11, 12, 13, 14, 17, 18, 19, 29};
   return std::find(std::begin(solid), std::end(solid), element.type) != std::end(solid) ? 3 : 2;
 }
 
