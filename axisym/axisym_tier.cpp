@@ -102,8 +102,7 @@ std::string AxisymTier::refusal(const Scene& scene) const {
     return "geometry.kind = \"torus\" is not axisymmetric; use a 3D tier, or kind = \"cylinder\"";
   if (scene.text("geometry.kind") == "mesh" &&
       element::gmsh_dimensions(scene.folder() / scene.text("geometry.file")) == 3)
-    return "geometry.file names physical volumes, of a vessel in space; use --tier full3d, or mesh its half "
-           "plane";
+    return "geometry.file is a vessel in space; use --tier full3d, or mesh its half plane";
   if (scene.flag("wall.incompressible"))
     return "wall.incompressible = true is for the 0D tier; write false and a large wall.bulk_modulus (9e6 "
            "dyn/cm2 "

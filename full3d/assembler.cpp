@@ -79,7 +79,7 @@ LeastMode Assembler::least_mode(double time, std::span<const double> y) const {
   const LoadedStage at = loaded({time, 0, {}}, y);
   if (announcer_) announcer_->least_mode(at, y);
   owner_of_factors_ = nullptr;
-  return full3d::least_mode(share_, layout_, ranks_, at, y);
+  return full3d::least_mode(share_, problem_, layout_, ranks_, at, y);
 }
 
 std::string Assembler::place_of_node(int node) const {

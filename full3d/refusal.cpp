@@ -9,9 +9,8 @@ std::string refusal(const Scene& scene) {
   if (scene.text("geometry.kind") == "mesh") {
     const int dimensions = element::gmsh_dimensions(scene.folder() / scene.text("geometry.file"));
     if (dimensions == 1 || dimensions == 2)
-      return "geometry.file names no physical volume, but a half plane, for --tier axisym; mesh volumes "
-             "\"blood\" "
-             "and \"wall\", or write geometry.kind = \"cylinder\" or \"torus\"";
+      return "geometry.file has no volumes, but a half plane, for --tier axisym; mesh volumes \"blood\" and "
+             "\"wall\", or write geometry.kind = \"cylinder\" or \"torus\"";
   }
   if (scene.flag("wall.incompressible"))
     return "wall.incompressible = true is for the 0D tier; write false and a large wall.bulk_modulus (9e6 "

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "full3d/rigid_motions.hpp"
 
 namespace tunica::full3d {
 
@@ -23,7 +24,9 @@ OwnedMatrix symmetric_part(Mat matrix) {
 
 class StiffnessAndMass final : public coupled::StiffnessAndMass {
  public:
-  StiffnessAndMass(Share& share, const Ranks& ranks, LoadedStage at, std::span<const double> y) {
+  StiffnessAndMass(Share& share, const Ranks& ranks, LoadedStage at, std::span<const double> y,
+                   const std::vector<std::vector<double>>& free)
+      : free_(by_row(share, free)) {
     at.stage.coefficient = 0;
     share.assemble(at, y);
     stiffness_ = symmetric_part(share.matrix());
@@ -67,6 +70,14 @@ class StiffnessAndMass final : public coupled::StiffnessAndMass {
     return static_cast<int>(negative);
   }
 
+  FreeMotions free_motions() override {
+    FreeMotions found{static_cast<int>(free_.size()), 0};
+    for (const std::vector<double>& motion : free_)
+      found.scale =
+          std::max(found.scale, form(stiffness_.get(), motion, true) / form(mass_.get(), motion, false));
+    return found;
+  }
+
   /// The motion that changes the slowest, with the latest factors, by own rows.
   std::vector<double> slowest() const {
     OwnedVector motion, pushed;
@@ -92,6 +103,49 @@ class StiffnessAndMass final : public coupled::StiffnessAndMass {
   }
 
  private:
+  /// Motions by PETSc's rows.
+  static std::vector<std::vector<double>> by_row(const Share& share,
+                                                 const std::vector<std::vector<double>>& motions) {
+    std::vector<std::vector<double>> all;
+    for (const std::vector<double>& motion : motions) {
+      std::vector<double>& rows = all.emplace_back(motion.size(), 0.0);
+      for (std::size_t u = 0; u < motion.size(); ++u)
+        rows[share.petsc_index(static_cast<int>(u))] = motion[u];
+    }
+    return all;
+  }
+
+  /// x.A x, or |x|.|A| |x|, the same on all ranks.
+  static double form(Mat matrix, const std::vector<double>& motion, bool absolute) {
+    OwnedVector left, right;
+    check(MatCreateVecs(matrix, left.put(), right.put()), "MatCreateVecs");
+    PetscInt begin = 0, end = 0;
+    check(MatGetOwnershipRange(matrix, &begin, &end), "MatGetOwnershipRange");
+    for (PetscInt row = begin; row < end; ++row) {
+      PetscInt count = 0;
+      const PetscInt* columns = nullptr;
+      const PetscScalar* values = nullptr;
+      check(MatGetRow(matrix, row, &count, &columns, &values), "MatGetRow");
+      double sum = 0;
+      for (PetscInt k = 0; k < count; ++k) {
+        const double term = values[k] * motion[columns[k]];
+        sum += absolute ? std::abs(term) : term;
+      }
+      check(MatRestoreRow(matrix, row, &count, &columns, &values), "MatRestoreRow");
+      check(VecSetValue(right.get(), row, sum, INSERT_VALUES), "VecSetValue");
+      check(VecSetValue(left.get(), row, absolute ? std::abs(motion[row]) : motion[row], INSERT_VALUES),
+            "VecSetValue");
+    }
+    for (Vec vector : {left.get(), right.get()}) {
+      check(VecAssemblyBegin(vector), "VecAssemblyBegin");
+      check(VecAssemblyEnd(vector), "VecAssemblyEnd");
+    }
+    PetscScalar product = 0;
+    check(VecDot(left.get(), right.get(), &product), "VecDot");
+    return product;
+  }
+
+  std::vector<std::vector<double>> free_;
   OwnedMatrix stiffness_, mass_, shifted_;
   OwnedSolver solver_;
   PC pc_ = nullptr;
@@ -99,9 +153,9 @@ class StiffnessAndMass final : public coupled::StiffnessAndMass {
 
 }  // namespace
 
-LeastMode least_mode(Share& share, const Layout& layout, const Ranks& ranks, const LoadedStage& at,
-                     std::span<const double> y) {
-  StiffnessAndMass pencil(share, ranks, at, y);
+LeastMode least_mode(Share& share, const Problem& problem, const Layout& layout, const Ranks& ranks,
+                     const LoadedStage& at, std::span<const double> y) {
+  StiffnessAndMass pencil(share, ranks, at, y, free_rigid_motions(problem, layout, y));
   LeastMode mode;
   mode.stability = coupled::least_mode(pencil);
   std::vector<double> rows = pencil.slowest();

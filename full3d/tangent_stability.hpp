@@ -20,8 +20,8 @@ struct LeastMode {
 /// The least mode of a wall alone at a complete static state, by MUMPS; collective. Of motions that the
 /// meshed part allows: a half or a quarter of a vessel has those that are symmetric about its planes. Throws
 /// SolverFailure on all ranks when a pivot vanishes.
-LeastMode least_mode(Share& share, const Layout& layout, const Ranks& ranks, const LoadedStage& at,
-                     std::span<const double> y);
+LeastMode least_mode(Share& share, const Problem& problem, const Layout& layout, const Ranks& ranks,
+                     const LoadedStage& at, std::span<const double> y);
 
 /// Wave length along the inner surface of a motion by unknown, where it is greatest.
 double wave_length(const Problem& problem, const Layout& layout, const VesselShape& shape,

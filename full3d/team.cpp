@@ -176,7 +176,7 @@ void serve(const Ranks& ranks) {
         Served& served = *problems.at(note.problem);
         const LoadedStage at = served.receive(ranks, note);
         try {
-          least_mode(served.share, served.layout, ranks, at, served.y);
+          least_mode(served.share, served.setup->problem, served.layout, ranks, at, served.y);
         } catch (const SolverFailure&) {
           // The leader tells.
         }

@@ -5,22 +5,30 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tunica::coupled {
 
 TangentStability least_mode(StiffnessAndMass& pencil) {
   TangentStability result;
-  result.negative = pencil.negative(0);
+  constexpr double rounding = 1000 * std::numeric_limits<double>::epsilon();
+  const auto free = pencil.free_motions();
+  const double none = free.count > 0 ? rounding * free.scale : 0;  // what is closer to 0 is not told from it
+  result.negative = pencil.negative(-none);
+  if (free.count > 0) result.neutral = std::min(free.count, pencil.negative(none) - result.negative);
   // Bracket of the least eigenvalue: from 0 outwards in powers of ten.
-  double low = 0, high = 0;
+  double low = -none, high = -none;
+  const int passed = result.negative > 0 ? 0 : result.neutral;  // eigenvalues that come before it
+  const auto comes_before = [&](double lambda) { return pencil.negative(lambda) > passed; };
   if (result.negative > 0) {
-    for (low = -1; pencil.negative(low) > 0; low *= 10) high = low;
+    for (low = std::min(-1.0, 10 * low); comes_before(low); low *= 10) high = low;
   } else {
-    for (high = 1; pencil.negative(high) == 0; high *= 10) low = high;
+    low = none;
+    for (high = std::max(1.0, 10 * none); !comes_before(high); high *= 10) low = high;
   }
   while (std::abs(high - low) > 0.01 * std::max(std::abs(low), std::abs(high))) {
     const double middle = low * high > 0 ? std::copysign(std::sqrt(low * high), low) : 0.5 * (low + high);
-    (pencil.negative(middle) > 0 ? high : low) = middle;
+    (comes_before(middle) ? high : low) = middle;
   }
   result.least_eigenvalue = 0.5 * (low + high);
   pencil.negative(low);
@@ -47,6 +55,7 @@ double wave_length(std::vector<std::pair<double, double>> line) {
 
 void record_stability(const TangentStability& found, radial::TetherTraction tether, RunRecord& record) {
   record.resolution["negative_pivots"] = found.negative;
+  if (found.neutral > 0) record.resolution["neutral_motions"] = found.neutral;
   record.resolution["least_eigenvalue"] = found.least_eigenvalue;
   if (found.negative == 0) return;
   const bool proven = tether != radial::TetherTraction::current;

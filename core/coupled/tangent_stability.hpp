@@ -16,8 +16,11 @@ struct TangentStability {
   /// Negative pivots of the factorised symmetric part of K: as many independent motions give energy back
   /// (Sylvester's law of inertia).
   int negative = 0;
-  /// Least lambda of K x = lambda M x, 1/s^2, K's symmetric part: found by bisection on the number of
-  /// negative pivots of K - lambda M, to 1 %. A motion of negative lambda grows as e^(sqrt(-lambda) t).
+  /// Rigid motions that the conditions leave free and nothing resists: lambda is what rounding leaves of 0.
+  int neutral = 0;
+  /// Least lambda, but for neutral motions, of K x = lambda M x, 1/s^2, K's symmetric part: found by
+  /// bisection on the number of negative pivots of K - lambda M, to 1 %. A motion of negative lambda grows as
+  /// e^(sqrt(-lambda) t).
   double least_eigenvalue = 0;
   /// Twice the mean distance between the nodes of that motion's radial displacement along the inner surface,
   /// cm; 0 when it has fewer than two.
@@ -36,9 +39,19 @@ class StiffnessAndMass {
   virtual ~StiffnessAndMass() = default;
   /// Factorises K - lambda M and counts its negative pivots. Throws SolverFailure when a pivot vanishes.
   virtual int negative(double lambda) = 0;
+
+  /// Rigid motions that the conditions leave free: a tube on rollers may shift sideways and turn about
+  /// itself. Their energy is r.K r = 0 for loads that follow, of which rounding leaves up to eps |r|.|K| |r|.
+  struct FreeMotions {
+    int count = 0;
+    double scale = 0;  ///< the greatest |r|.|K| |r| / r.M r, 1/s^2
+  };
+  virtual FreeMotions free_motions() { return {}; }
 };
 
-/// All but the wave length. Leaves factors of K - lambda M with lambda just below the least eigenvalue.
+/// All but the wave length. With free motions, eigenvalues closer to 0 than 1000 eps times their scale are
+/// told from none: assembly and factors leave a few eps, and what grows as slowly as that takes longer than
+/// beats. Leaves factors of K - lambda M with lambda just below the least eigenvalue.
 TangentStability least_mode(StiffnessAndMass& pencil);
 
 /// Wave length of a displacement by places along the inner surface.

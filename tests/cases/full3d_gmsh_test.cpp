@@ -173,6 +173,29 @@ TEST_F(FromFile, UnevenEndsChangeNothingThatIsClamped) {
               std::string::npos);
 }
 
+// The same tube from a file and turned on its side, far from the origin: free of the same shifts and turn.
+TEST_F(FromFile, ATubeOnRollersIsNeutralAndNotUnstable) {
+  full3d::VesselSpec spec;
+  spec.radius = 0.1;
+  spec.layers = {0.03};
+  spec.length = 0.4;
+  spec.around_cells = 8;
+  spec.ring_cells = spec.wall_cells = 1;
+  spec.axial_cells = 2;
+  spec.shape = full3d::Shape::tetrahedron;
+  full3d::Mesh mesh = full3d::o_grid_vessel(spec);
+  for (full3d::Point& x : mesh.points) x = {x[2] + 7, x[0] - 3, x[1] + 5};
+  write(mesh);
+  const Result result =
+      run_full3d(scene("[wall]\nlaw = \"St-Venant-Kirchhoff\"\nyoung_modulus = 1e7\npoisson_ratio = "
+                       "0.3\n[tether]\nstiffness = 0\n",
+                       {"time.mode=static", "inlet.waveform=pressure", "inlet.pressure=1e4",
+                        "geometry.ends=sliding", "geometry.radius=0.1", "output.field_interval=0"}));
+  EXPECT_EQ(result.record.resolution.at("neutral_motions"), 3);
+  EXPECT_EQ(result.record.resolution.at("negative_pivots"), 0);
+  EXPECT_TRUE(result.record.findings.empty());
+}
+
 // A sac that leaves its artery in a sharp neck: cells in the crease have all of their corners on the outer
 // surface, and no direction across the wall.
 TEST(SharpNeck, IsComputedWithoutFibersAndRefusedWith) {

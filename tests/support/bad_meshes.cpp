@@ -143,7 +143,7 @@ std::vector<BadMesh> files() {
              m.elements[5].name.clear();
            },
            "2.2"),
-       {"element 6 has the type 4", "a vessel in space", "--tier full3d", "gmsh -2"}},
+       {"a vessel in space", "use --tier full3d, or mesh"}},
       {"order_three",
        spoilt(triangle6, [](auto& m) { m.elements[5].type = 21; }),
        {"element 6 has the type 21 of order 3", "order 1 or 2", "Mesh.ElementOrder = 2"}},
