@@ -205,9 +205,8 @@ void check_sliding(Boundary boundary, double inclination, double tolerance) {
   if (!(inclination > tolerance)) return;
   throw InvalidInput(
       fmt::format("geometry.ends = \"sliding\" lets the {} slide in its plane, but it is inclined to that by "
-                  "{:.3g} (root "
-                  "mean square), and accuracy.tolerance allows {:g}; draw it flat, write \"clamped\", or a "
-                  "larger tolerance",
+                  "{:.3g} (root mean square), and accuracy.tolerance allows {:g}; draw it flat, write "
+                  "\"clamped\", or a larger tolerance",
                   name(boundary), inclination, tolerance));
 }
 

@@ -40,8 +40,7 @@ void check_boundaries_named(const element::GmshFile& file, int dimension, bool b
 
 /// What to change in a mesh whose layers do not lie one around the other.
 inline constexpr const char* layers_remedy =
-    "each layer lies all around the one before, numbered wall:1, wall:2, ... from the lumen outwards (tissue "
-    "that "
+    "each layer lies all around the one before, numbered wall:1, wall:2, ... from the lumen outwards (what "
     "fills only a part of a layer, as a plaque, is not computed: give it the layer's name)";
 
 /// Throws InvalidInput for a mesh of another number of layers than the scene's.

@@ -38,13 +38,9 @@ bool lacks_directions(const wall::Law<double>& law, const wall::MaterialAxes& ax
 
 void refuse_fibers(const std::string& cell_at, Element element) {
   throw InvalidInput(fmt::format(
-      "mesh: fibres have no direction in the {}: all of its corners lie on one boundary, or on two that "
-      "meet; "
+      "mesh: fibres have no direction in the {}: its corners all lie on one boundary, or on two that meet; "
       "make cells there so small that one corner is inside the wall{}, or take a law without fibres",
-      cell_at,
-      element == Element::quadratic
-          ? ""
-          : ", write mesh.element = \"quadratic\", whose nodes between corners suffice"));
+      cell_at, element == Element::quadratic ? "" : ", write mesh.element = \"quadratic\", which suffices"));
 }
 
 std::vector<int> distinct_families(const wall::Law<double>& law) {

@@ -36,8 +36,7 @@ constexpr const char* solid_types_remedy =
     "bound them, and points: mesh in three dimensions with Mesh.ElementOrder = 2 or 1";
 /// No more than two dimensions are of use, and the cells seem to have three.
 constexpr const char* solid_in_plane =
-    "a vessel in space, of which the axisymmetric tier takes the half plane: use --tier full3d, or mesh in "
-    "two "
+    "a vessel in space, and the axisymmetric tier takes its half plane: use --tier full3d, or mesh in two "
     "dimensions (gmsh -2)";
 
 class Parser {

@@ -2,13 +2,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
+#include <fstream>
 #include <random>
 #include <string>
 #include <vector>
 
 #include "axisym/gmsh.hpp"
 #include "axisym/mesh_check.hpp"
+#include "axisym/setup.hpp"
 #include "core/error.hpp"
 #include "tests/support/bad_meshes.hpp"
 #include "tests/support/gmsh_model.hpp"
@@ -145,6 +148,38 @@ TEST(GmshRefusals, CoverRandomDamage) {
   // Both ends of the matter have been seen: damage that does no harm (a tag, a bounding box), and the rest.
   EXPECT_GT(accepted, 100);
   EXPECT_GT(refused, 3000);
+}
+
+/// Why a scene is refused before anything is computed; empty when it is not.
+std::string refusal(const Scene& scene) {
+  try {
+    setup_of(scene);
+  } catch (const InvalidInput& error) {
+    return error.what();
+  }
+  return {};
+}
+
+// Flatness of the ends is asked for where a velocity is prescribed and where they slide.
+TEST(UnevenEnds, AreRefusedWhereFlatnessIsUsed) {
+  const test_support::TemporaryFolder folder;
+  test_support::GmshModel model = test_support::stenosis_mesh({});
+  for (auto& node : model.nodes) {
+    if (node.y == 0) node.y = 3e-4 * std::cos(200 * node.x);
+    if (node.y == test_support::Stenosis{}.length) node.y += 3e-4 * std::cos(200 * node.x);
+  }
+  std::ofstream(folder.path() / "a.msh") << model.text("4.1");
+  std::ofstream(folder.path() / "a.toml") << "[geometry]\nkind = \"mesh\"\nfile = \"a.msh\"\n";
+  const auto scene = [&](const std::vector<std::string>& settings) {
+    return read_scene(folder.path() / "a.toml", settings);
+  };
+  EXPECT_EQ(refusal(scene({"inlet.waveform=pressure"})), "");
+  EXPECT_EQ(refusal(scene({"inlet.waveform=pressure", "time.mode=static"})), "");
+  EXPECT_EQ(refusal(scene({"inlet.profile=natural"})), "");
+  EXPECT_NE(refusal(scene({})).find("the inlet is no plane z = const"), std::string::npos)
+      << refusal(scene({}));
+  const std::string sliding = refusal(scene({"inlet.waveform=pressure", "geometry.ends=sliding"}));
+  EXPECT_NE(sliding.find("accuracy.tolerance allows 0.01; draw it flat"), std::string::npos) << sliding;
 }
 
 }  // namespace
