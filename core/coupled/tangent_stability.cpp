@@ -11,7 +11,7 @@ namespace tunica::coupled {
 
 TangentStability least_mode(StiffnessAndMass& pencil) {
   TangentStability result;
-  constexpr double rounding = 1000 * std::numeric_limits<double>::epsilon();
+  constexpr double rounding = 100 * std::numeric_limits<double>::epsilon();
   const auto free = pencil.free_motions();
   const double none = free.count > 0 ? rounding * free.scale : 0;  // what is closer to 0 is not told from it
   result.negative = pencil.negative(-none);

@@ -49,9 +49,9 @@ class StiffnessAndMass {
   virtual FreeMotions free_motions() { return {}; }
 };
 
-/// All but the wave length. With free motions, eigenvalues closer to 0 than 1000 eps times their scale are
-/// told from none: assembly and factors leave a few eps, and what grows as slowly as that takes longer than
-/// beats. Leaves factors of K - lambda M with lambda just below the least eigenvalue.
+/// All but the wave length. With free motions, eigenvalues closer to 0 than 100 eps times their scale are not
+/// told from it: assembly and factors leave about one eps, and what grows as slowly as that takes longer than
+/// a beat. Leaves factors of K - lambda M with lambda just below the least eigenvalue.
 TangentStability least_mode(StiffnessAndMass& pencil);
 
 /// Wave length of a displacement by places along the inner surface.
