@@ -262,7 +262,7 @@ TEST(MeshWithoutNames, IsRefusedAsTheVesselInSpaceThatItIs) {
   std::ofstream(folder.path() / "tube.msh") << text.erase(begin, end - begin);
   std::ofstream(folder.path() / "tube.toml")
       << "[geometry]\nkind = \"mesh\"\nfile = \"tube.msh\"\nradius = 0.5\n";
-  const Ended ended = test_support::tunica({"run", "tube.toml", "--out", "r"}, folder.path());
+  const Ended ended = test_support::tunica({"run", "tube.toml", "--out", "r", "--quiet"}, folder.path());
   EXPECT_EQ(ended.code, 2) << ended.errors;
   EXPECT_TRUE(is_one_line(ended.errors)) << ended.errors;
   for (const char* words : {"physical volumes 1, 2 and physical surfaces 3, 4, 5, 6, 7, and no names",
