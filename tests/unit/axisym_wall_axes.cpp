@@ -31,8 +31,7 @@ Problem problem_of(Mesh mesh, Element element) {
   Problem problem;
   problem.mesh = std::move(mesh);
   problem.discretisation.element = element;
-  problem.laws.assign(problem.mesh.layers(), wall::EnergyLaw<wall::LinearElastic<double>>{
-                                                 {.young_modulus = 1, .poisson_ratio = 0.3}});
+  problem.laws.assign(problem.mesh.layers(), wall::EnergyLaw<wall::LinearElastic<double>>{{1, 0.3}});
   return problem;
 }
 
