@@ -165,7 +165,7 @@ std::vector<Parameter> declare() {
        {},
        {},
        "Name of the layer (intima, media, adventitia); layers are listed from the lumen outwards."});
-  all.push_back(number("wall.layers[].fraction", "1", {}, positive(1),
+  all.push_back(number("wall.layers[].fraction", "1", {}, between(1e-3, 1),
                        "Share of the wall's thickness; shares add up to 1.", "must be given"));
   add_law_parameters(all, "wall.layers[].", true);
   add_family_parameters(all, "wall.layers[].families[].");

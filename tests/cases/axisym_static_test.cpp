@@ -103,6 +103,15 @@ TEST(StaticTubeEnds, ThatSlideLeaveTheRing) {
   }
 }
 
+// A hundredth of the radius is the least that a scene may have.
+TEST(StaticTubeEnds, ThatSlideLeaveTheThinnestRing) {
+  for (const char* law : {"EXP1", "EXP1+EXP2-FS"}) {
+    const Scene scene =
+        static_tube(law, "100", {"geometry.ends=sliding", "mesh.axial_cells=2", "geometry.thickness=3.3e-4"});
+    EXPECT_LT(greatest_difference(scene, run_axisym(scene)), 1e-5) << law;
+  }
+}
+
 // Linear elements are of second order in the displacement, the wall's pressure interpolated on its own or
 // not.
 TEST(StaticTubeElements, ConvergeToTheRing) {
