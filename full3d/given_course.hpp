@@ -9,8 +9,8 @@
 namespace tunica::full3d {
 
 /// That of a mesh from a file. Sections are surfaces of constant phi,
-///   div grad phi = 0, phi = 0 on the inlet and wall_inlet, phi = 1 on the outlet and wall_outlet, natural on
-///   the rest,
+///   div grad phi = 0,  phi = 0 on the inlet and wall_inlet,  phi = 1 on the outlet and wall_outlet,
+///   d(phi)/dn = 0 on the rest,
 /// in blood and wall together; the centreline goes through the centres of the lumen's sections (of the wall's
 /// without blood). Angle 0 is that of the coordinate x (y where the inlet's normal is nearer to x) at the
 /// inlet, carried along the centreline without twist: in a torus that begins as o_grid_vessel's does, the

@@ -58,10 +58,10 @@ struct Yardstick {
 /// Scale and limit of a quantity for a scene's accuracy.tolerance t (the error allowed in observables,
 /// relative to their range):
 ///   relative     t
-///   angle        t/2 rad, what a relative error t of the circumferential stretch turns a fibre by at 45
-///   degrees peak         t times the time that the quantity takes to rise to its peak recruitment  half the
-///   time that the fibre stretch is within t of its range to the threshold: the shift of the
-///                instants that an error t of the stretch makes
+///   angle        t/2 rad, what a relative error t of the circumferential stretch turns a fibre at 45° by
+///   peak         t times the time that the quantity takes to rise to its peak
+///   recruitment  half the time that the fibre stretch is within t of its range to the threshold: the shift
+///                of the instants that an error t of the stretch makes
 /// The limit is `none` where the reference has no such quantity, or no peak as it hardly moves.
 Yardstick yardstick(const Quantity& quantity, const BeatRun& reference, const BeatRun& other,
                     double tolerance);

@@ -12,16 +12,16 @@ enum class Shape { hexahedron, tetrahedron };
 
 /// Lagrange bases.
 ///   linear         on the corners (trilinear on cubes);
-///   quadratic      cubes: triquadratic, on corners and middles of edges, faces and cell; tetrahedra: of
-///   degree
-///                  2, on corners and middles of edges;
+///   quadratic      cubes: triquadratic, on corners and middles of edges, faces and cell;
+///                  tetrahedra: of degree 2, on corners and middles of edges;
 ///   linear_bubble  on tetrahedra: linear, plus 256 l0 l1 l2 l3, which vanishes on the faces, as a
-///   coefficient
-///                  of its own (Arnold, Brezzi and Fortin, Calcolo 21:337, 1984).
+///                  coefficient of its own (Arnold, Brezzi and Fortin, Calcolo 21:337, 1984).
 ///
 /// Nodes of cubes are numbered by their coordinates, the first running fastest: node (i, j, k) of a basis
-/// with m nodes to an edge is i + m (j + m k). Those of tetrahedra are the corners 0, e_x, e_y, e_z, then the
-/// middles of the edges 01, 02, 03, 12, 13, 23.
+/// with m nodes to an edge is i + m (j + m k).
+///
+/// Those of tetrahedra are the corners 0, e_x, e_y, e_z, then the middles of the edges 01, 02, 03, 12, 13,
+/// 23.
 enum class Basis { linear, quadratic, linear_bubble };
 
 inline constexpr int max_nodes = 27;

@@ -32,9 +32,9 @@ struct BloodBalance {
 
 /// Incompressible Navier-Stokes equations in arbitrary Lagrangian-Eulerian form (paper eq. 2), pulled back
 /// by the mesh motion F = I + H:
-///   int [ J rho (dv/dt|_X + grad v (v - w)) . phi + J sigma F^-T : dphi/dX ] dX, sigma = -p I + mu (grad v +
-///   grad v^T), and int q J div v dX,
-/// grad v = dv/dX F^-1. A uniform velocity solves them on any moving mesh.
+///   int [ J rho (dv/dt|_X + grad v (v - w)) . phi + J sigma F^-T : dphi/dX ] dX  and  int q J div v dX,
+///   sigma = -p I + mu (grad v + grad v^T),  grad v = dv/dX F^-1.
+/// A uniform velocity solves them on any moving mesh.
 template <class S>
 BloodBalance<S> blood_balance(const Blood& blood, const BloodState<S>& state) {
   const Tensor<S> f = Tensor<S>::identity() + state.mesh_gradient;

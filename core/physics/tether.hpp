@@ -13,8 +13,8 @@ struct Tether {
 };
 
 /// The tether's term in the weak form, int t . phi dA over the reference surface with outward normal N:
-///   normal     t = K (d.N) n da/dA + K (I - N x N) d: a pressure K (d.N) outside, and springs along the
-///   surface; reference  t = K d, as printed; current    t = K d da/dA.
+///   normal     t = K (d.N) n da/dA + K (I - N x N) d, a pressure outside and springs along the surface;
+///   reference  t = K d, as printed;     current  t = K d da/dA.
 template <class S>
 Vector<S> tether_load(const Tether& tether, const Vector<S>& displacement, const Tensor<S>& gradient,
                       const Vector<double>& normal) {

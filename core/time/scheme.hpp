@@ -81,7 +81,7 @@ class Scheme {
   ///   first order   D/(2c),  D = r_(n+1) - r_n
   ///   bdf2          D/(3c),  D = r_(n+1) - linear extrapolation of r_n and r_(n-1)
   /// Both are the leading term of the error for any sequence of steps (from values alone, irregular steps
-  /// would spoil it). generalized alpha: E h^3 y''' with y''' from D as for bdf2 and
+  /// would spoil it). That of generalized alpha is E h^3 y''' with y''' from D as for bdf2 and
   /// E = 1/12 - s^2 + s (1 - 2 am)/2, which is exact for linear autonomous systems and equal steps.
   /// Where a second-order method has one rate of the past only, the estimate is that of backward Euler,
   /// which is too large.

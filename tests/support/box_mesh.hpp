@@ -35,8 +35,8 @@ inline full3d::Mesh box_mesh(const BoxSpec& spec,
   const auto node = [&](const Triple& at) {
     const auto [found, is_new] = node_at.try_emplace(at, static_cast<int>(mesh.points.size()));
     if (is_new) {
-      const double x =
-          at[0] <= interface ? spec.width * at[0] / interface : spec.width + spec.thickness * (at[0] - interface) / (most[0] - interface);
+      const double in_wall = spec.thickness * (at[0] - interface) / (most[0] - interface);
+      const double x = at[0] <= interface ? spec.width * at[0] / interface : spec.width + in_wall;
       mesh.points.push_back(map({x, spec.depth * at[1] / most[1], spec.length * at[2] / most[2]}));
       lattice.push_back(at);
     }

@@ -30,8 +30,8 @@ struct LinearTube {
 ///   u_z = e z + q z^2/2 + D - (S/(4 G_w) + a/2) r^2 + (C/G_w - b) ln(r/R_i),
 ///   sigma_rz = C/r - S r/2,   S = d(sigma_zz)/dz = 2 lambda a + (lambda + 2 G_w) q,
 /// which meets equilibrium for any constants:
-///   d(sigma_rr)/dr + (sigma_rr - sigma_tt)/r + d(sigma_rz)/dz = 0 (two of Lame's solutions; sigma_rz has no
-///   z), (1/r) d(r sigma_rz)/dr + d(sigma_zz)/dz = 0.
+///   d(sigma_rr)/dr + (sigma_rr - sigma_tt)/r + d(sigma_rz)/dz = 0  (two of Lame's; sigma_rz has no z),
+///   (1/r) d(r sigma_rz)/dr + d(sigma_zz)/dz = 0.
 /// With an axial spring e = q = 0 and the spring carries the shear; without one the axial force in the wall
 /// grows along z instead (q from sigma_rz = 0 outside), e is free and u_z = 0 at (R_i, 0). G = 0 is Lame's
 /// tube: in plane strain (e = 0) or stretched by e. Errors are round-off.
