@@ -5,6 +5,9 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
 
 #include "app/program.hpp"
 
@@ -18,6 +21,14 @@ namespace {
 int complain(const std::exception& error, int code) {
   if (tunica::is_first_process()) fmt::print(stderr, "tunica: {}\n", error.what());
   return code;
+}
+
+/// What was printed last waits in a buffer, and a full disk shows when it is written.
+int after_output(int code) {
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
+  const tunica::OutputFailure failure(
+      fmt::format("the standard output cannot be written: {}", std::strerror(errno)));
+  return complain(failure, code == tunica::done ? tunica::bad_input : code);
 }
 
 }  // namespace
@@ -90,7 +101,7 @@ int tunica::run_program(int argc, char** argv, const Program& program) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {
-    return app.exit(success);
+    return after_output(app.exit(success));
   } catch (const CLI::ParseError& error) {
     const auto commands = app.get_subcommands([](const CLI::App*) { return true; });
     const bool known =
@@ -107,10 +118,10 @@ int tunica::run_program(int argc, char** argv, const Program& program) {
   }
 
   try {
-    if (*run_app) return run_command(run, program);
-    if (*verify_app) return verify_command(verify, program);
-    if (*scene_app) return scene_command(scene);
-    return report_command(report);
+    if (*run_app) return after_output(run_command(run, program));
+    if (*verify_app) return after_output(verify_command(verify, program));
+    if (*scene_app) return after_output(scene_command(scene));
+    return after_output(report_command(report));
   } catch (const InvalidInput& error) {
     return complain(error, bad_input);
   } catch (const OutputFailure& error) {
@@ -118,6 +129,7 @@ int tunica::run_program(int argc, char** argv, const Program& program) {
   } catch (const SolverFailure& error) {
     return complain(error, gave_up);
   } catch (const std::exception& error) {
+    if (std::ferror(stdout) != 0) return after_output(done);
     fmt::print(stderr, "tunica: internal error, please report it: {}\n", error.what());
     return gave_up;
   }

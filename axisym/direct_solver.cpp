@@ -41,8 +41,9 @@ bool DirectSolver::factorise(SparseMatrix& matrix) {
 }
 
 void DirectSolver::solve(std::span<double> right_hand_side) const {
-  klu_solve(symbolic_, numeric_, static_cast<int>(right_hand_side.size()), 1, right_hand_side.data(),
-            &common_);
+  if (klu_solve(symbolic_, numeric_, static_cast<int>(right_hand_side.size()), 1, right_hand_side.data(),
+                &common_) == 0)
+    throw std::runtime_error("klu_solve: no factors of a matrix of this size");
 }
 
 double DirectSolver::entries() const {

@@ -6,7 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <new>
 #include <utility>
+
+#include "core/gsl.hpp"
 
 namespace tunica {
 
@@ -69,12 +72,16 @@ std::size_t PeriodicCurve::behind(std::size_t interval) const {
 }
 
 std::vector<double> PeriodicCurve::spline_slopes() const {
+  let_gsl_return_codes();
   const std::unique_ptr<gsl_interp, decltype(&gsl_interp_free)> spline(
       gsl_interp_alloc(gsl_interp_cspline_periodic, time_.size()), &gsl_interp_free);
-  gsl_interp_init(spline.get(), time_.data(), value_.data(), time_.size());
-  std::vector<double> slopes;
+  if (!spline) throw std::bad_alloc();
+  check_gsl(gsl_interp_init(spline.get(), time_.data(), value_.data(), time_.size()), "gsl_interp_init");
+  std::vector<double> slopes(intervals());
   for (std::size_t i = 0; i < intervals(); ++i)
-    slopes.push_back(gsl_interp_eval_deriv(spline.get(), time_.data(), value_.data(), time_[i], nullptr));
+    check_gsl(
+        gsl_interp_eval_deriv_e(spline.get(), time_.data(), value_.data(), time_[i], nullptr, &slopes[i]),
+        "gsl_interp_eval_deriv");
   return slopes;
 }
 

@@ -5,14 +5,16 @@
 #include <gsl/gsl_roots.h>
 
 #include <memory>
+#include <new>
 #include <stdexcept>
+
+#include "core/gsl.hpp"
 
 namespace tunica {
 
 double find_root(const std::function<double(double)>& function, double lower, double upper,
                  double tolerance) {
-  // GSL's own handler would abort the program; the returned codes are checked instead.
-  gsl_set_error_handler_off();
+  let_gsl_return_codes();
   const double at_lower = function(lower);
   const double at_upper = function(upper);
   if (at_lower == 0) return lower;
@@ -25,6 +27,7 @@ double find_root(const std::function<double(double)>& function, double lower, do
       const_cast<std::function<double(double)>*>(&function)};
   const std::unique_ptr<gsl_root_fsolver, decltype(&gsl_root_fsolver_free)> solver(
       gsl_root_fsolver_alloc(gsl_root_fsolver_brent), &gsl_root_fsolver_free);
+  if (!solver) throw std::bad_alloc();
   if (gsl_root_fsolver_set(solver.get(), &callback, lower, upper) != GSL_SUCCESS)
     throw std::logic_error("find_root: the function is not finite at the ends of the interval");
   constexpr int most_iterations = 200;

@@ -61,7 +61,9 @@ void Blocks::scale(double rate_coefficient, Mat matrix) {
     // Rows of continuity hold the transposed gradient.
     if (field_[k] == Field::pressure) note(gradient, greatest[k]);
   }
-  MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM, communicator_);
+  check_mpi(MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM,
+                          communicator_),
+            "MPI_Allreduce");
   const auto mean = [&](int m) { return sums[means + m] > 0 ? std::exp(sums[m] / sums[means + m]) : 1.0; };
   const double momentum = sums[means + velocity_diagonal] > 0 ? mean(velocity_diagonal) : mean(wall_diagonal);
   const double pressure = momentum / mean(gradient);
@@ -144,7 +146,7 @@ void Blocks::split(PC pc, const Mesh& vessel, const BloodVolumes& volumes) {
   std::array<int, 2> own{static_cast<int>(field_.size()), 0}, begin{};
   for (const Field field : field_)
     if (field < Field::pressure) ++own[1];
-  MPI_Exscan(own.data(), begin.data(), 2, MPI_INT, MPI_SUM, communicator_);
+  check_mpi(MPI_Exscan(own.data(), begin.data(), 2, MPI_INT, MPI_SUM, communicator_), "MPI_Exscan");
   for (std::size_t k = 0; k < field_.size(); ++k) {
     const auto row = begin[0] + static_cast<PetscInt>(k);
     const std::size_t entry = layout_.entry(own_[k]);

@@ -100,7 +100,8 @@ LeastJacobian Share::residual(const LoadedStage& stage, std::span<const double> 
     int cell;
   } mine{std::isnan(least.value) ? -std::numeric_limits<double>::infinity() : least.value, least.cell},
       found{};
-  MPI_Allreduce(&mine, &found, 1, MPI_DOUBLE_INT, MPI_MINLOC, ranks_.communicator());
+  check_mpi(MPI_Allreduce(&mine, &found, 1, MPI_DOUBLE_INT, MPI_MINLOC, ranks_.communicator()),
+            "MPI_Allreduce");
   return {found.value, found.cell};
 }
 
@@ -220,8 +221,9 @@ bool Share::solve_rows(std::span<double> right_hand_side) {
   }
   PetscScalar* local = nullptr;
   check(VecGetArray(right_.get(), &local), "VecGetArray");
-  MPI_Scatterv(ordered.data(), counts_.data(), offsets_.data(), MPI_DOUBLE, local, own, MPI_DOUBLE, 0,
-               ranks_.communicator());
+  check_mpi(MPI_Scatterv(ordered.data(), counts_.data(), offsets_.data(), MPI_DOUBLE, local, own, MPI_DOUBLE,
+                         0, ranks_.communicator()),
+            "MPI_Scatterv");
   check(VecRestoreArray(right_.get(), &local), "VecRestoreArray");
   if (blocks_) blocks_->scale_right(right_.get());
   check(KSPSolve(solver_.get(), right_.get(), solution_.get()), "KSPSolve");
@@ -237,8 +239,9 @@ bool Share::solve_rows(std::span<double> right_hand_side) {
   }
   const PetscScalar* found = nullptr;
   check(VecGetArrayRead(solution_.get(), &found), "VecGetArrayRead");
-  MPI_Gatherv(found, own, MPI_DOUBLE, ordered.data(), counts_.data(), offsets_.data(), MPI_DOUBLE, 0,
-              ranks_.communicator());
+  check_mpi(MPI_Gatherv(found, own, MPI_DOUBLE, ordered.data(), counts_.data(), offsets_.data(), MPI_DOUBLE,
+                        0, ranks_.communicator()),
+            "MPI_Gatherv");
   check(VecRestoreArrayRead(solution_.get(), &found), "VecRestoreArrayRead");
   if (ranks_.leads()) rows([](double& value, double row) { value = row; });
   return reason > 0;

@@ -24,7 +24,7 @@ struct FreeMatrix {
 };
 using MatrixHandle = std::unique_ptr<std::remove_pointer_t<SUNMatrix>, FreeMatrix>;
 struct FreeSolver {
-  void operator()(SUNLinearSolver s) const { SUNLinSolFree(s); }
+  void operator()(SUNLinearSolver s) const { static_cast<void>(SUNLinSolFree(s)); }
 };
 using SolverHandle = std::unique_ptr<std::remove_pointer_t<SUNLinearSolver>, FreeSolver>;
 struct FreeMemory {
@@ -120,13 +120,13 @@ Integrator::Integrator(System system, std::vector<Sensitivity> sensitivities, do
   const int n = self.system.unknowns;
   self.state.reset(N_VNew_Serial(n, self.context));
   self.absolute.reset(N_VNew_Serial(n, self.context));
-  for (int i = 0; i < n; ++i)
-    NV_Ith_S(self.absolute.get(), i) = absolute_share * tolerance * self.system.scales[i];
   self.matrix.reset(SUNBandMatrix(n, self.system.bandwidth, self.system.bandwidth, self.context));
   self.solver.reset(SUNLinSol_Band(self.state.get(), self.matrix.get(), self.context));
   self.memory.reset(CVodeCreate(CV_BDF, self.context));
-  if (!self.state || !self.matrix || !self.solver || !self.memory)
+  if (!self.state || !self.absolute || !self.matrix || !self.solver || !self.memory)
     throw SolverFailure("CVODES could not be set up: out of memory");
+  for (int i = 0; i < n; ++i)
+    NV_Ith_S(self.absolute.get(), i) = absolute_share * tolerance * self.system.scales[i];
 }
 
 Integrator::~Integrator() = default;
@@ -157,6 +157,8 @@ void Integrator::start(double time, double end_time, const std::vector<double>& 
     if (count > 0) {
       self.sensitivities = N_VCloneVectorArray(count, self.state.get());
       self.sensitivity_absolute = N_VCloneVectorArray(count, self.state.get());
+      if (!self.sensitivities || !self.sensitivity_absolute)
+        throw SolverFailure("CVODES could not be set up: out of memory");
     }
   } else {
     self.before = statistics();
@@ -220,10 +222,10 @@ IntegratorStatistics Integrator::statistics() const {
   IntegratorStatistics total = self.before;
   if (!self.started) return total;
   long steps = 0, newton = 0, errors = 0, failures = 0;
-  CVodeGetNumSteps(self.memory.get(), &steps);
-  CVodeGetNumNonlinSolvIters(self.memory.get(), &newton);
-  CVodeGetNumErrTestFails(self.memory.get(), &errors);
-  CVodeGetNumNonlinSolvConvFails(self.memory.get(), &failures);
+  self.check(CVodeGetNumSteps(self.memory.get(), &steps), "CVodeGetNumSteps");
+  self.check(CVodeGetNumNonlinSolvIters(self.memory.get(), &newton), "CVodeGetNumNonlinSolvIters");
+  self.check(CVodeGetNumErrTestFails(self.memory.get(), &errors), "CVodeGetNumErrTestFails");
+  self.check(CVodeGetNumNonlinSolvConvFails(self.memory.get(), &failures), "CVodeGetNumNonlinSolvConvFails");
   total.steps += steps;
   total.newton_iterations += newton;
   total.rejected_steps += errors + failures;

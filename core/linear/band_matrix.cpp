@@ -6,6 +6,8 @@
 
 #include <cmath>
 
+#include "core/gsl.hpp"
+
 namespace tunica::linear {
 
 void BandMatrix::reset(std::size_t size, std::size_t bandwidth) {
@@ -18,8 +20,7 @@ void BandMatrix::reset(std::size_t size, std::size_t bandwidth) {
 bool BandMatrix::factorise() {
   for (const double entry : storage_)
     if (!std::isfinite(entry)) return false;
-  // GSL's own handler would abort the program; the returned code is checked instead.
-  gsl_set_error_handler_off();
+  let_gsl_return_codes();
   gsl_matrix_view matrix = gsl_matrix_view_array(storage_.data(), size_, stride());
   gsl_vector_uint_view pivots = gsl_vector_uint_view_array(pivots_.data(), size_);
   if (gsl_linalg_LU_band_decomp(size_, bandwidth_, bandwidth_, &matrix.matrix, &pivots.vector) != GSL_SUCCESS)
@@ -33,7 +34,8 @@ void BandMatrix::solve(std::span<double> x) const {
   const gsl_matrix_const_view matrix = gsl_matrix_const_view_array(storage_.data(), size_, stride());
   const gsl_vector_uint_const_view pivots = gsl_vector_uint_const_view_array(pivots_.data(), size_);
   gsl_vector_view vector = gsl_vector_view_array(x.data(), size_);
-  gsl_linalg_LU_band_svx(bandwidth_, bandwidth_, &matrix.matrix, &pivots.vector, &vector.vector);
+  check_gsl(gsl_linalg_LU_band_svx(bandwidth_, bandwidth_, &matrix.matrix, &pivots.vector, &vector.vector),
+            "gsl_linalg_LU_band_svx");
 }
 
 }  // namespace tunica::linear

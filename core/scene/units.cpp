@@ -16,6 +16,7 @@
 #include "core/error.hpp"
 #include "core/scene/message.hpp"
 #include "core/scene/scene.hpp"
+#include "core/units.hpp"
 
 namespace tunica {
 
@@ -49,7 +50,7 @@ class UnitDatabase {
     name_unit("deg", "arc_degree");
     name_unit("P", "poise");
     // UDUNITS derives mmHg from densities and gets another eighth digit than the project's value.
-    name_unit("mmHg", "1333.22387 dyne/cm2");
+    name_unit("mmHg", fmt::format("{} dyne/cm2", mmhg));
     name_unit("mmH2O", "0.1 cmH2O");
     name_unit("inH2O", "2.54 cmH2O");
     name_unit("Ba", "barye");
@@ -64,10 +65,14 @@ class UnitDatabase {
   }
 
  private:
-  void name_unit(const char* name, const char* definition) {
+  void name_unit(const char* name, const std::string& definition) {
     const Unit unit = parse(definition);
-    ut_unmap_symbol_to_unit(system_.get(), name, UT_ASCII);
-    ut_map_symbol_to_unit(name, UT_ASCII, unit.get());
+    const Unit before(unit ? ut_get_unit_by_symbol(system_.get(), name) : nullptr);
+    if (!unit || (before && ut_unmap_symbol_to_unit(system_.get(), name, UT_ASCII) != UT_SUCCESS) ||
+        ut_map_symbol_to_unit(name, UT_ASCII, unit.get()) != UT_SUCCESS)
+      throw InvalidInput(fmt::format(
+          "the UDUNITS-2 unit database cannot take {} as a name of {}: set UDUNITS2_XML_PATH to udunits2.xml",
+          name, definition));
   }
 
   std::unique_ptr<ut_system, FreeSystem> system_;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Runs that end before their end: no equilibrium, Ctrl-C, kill -9, no room, no permission.
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/mount.h>
 #include <sys/resource.h>
@@ -210,6 +211,32 @@ TEST(Faults, FullDiskIsToldAndLeavesNoHalfFile) {
   EXPECT_EQ(broken, "");
   EXPECT_FALSE(recorded) << "a record beside files that are missing";
   EXPECT_EQ(parts, 0U);
+}
+
+// What fits into a buffer fails when it is flushed at the end, what does not fails before.
+TEST(Faults, FullStandardOutputIsTold) {
+  const auto nowhere = [] {
+    const int full = ::open("/dev/full", O_WRONLY);
+    if (full < 0 || ::dup2(full, STDOUT_FILENO) < 0) ::_exit(124);
+  };
+  const std::vector<std::vector<std::string>> commands{
+      {"--version"}, {"scene", "--list"}, {"scene", scene}, {"scene", "--parameters"}};
+  for (const auto& command : commands) {
+    const Ended ended = test_support::tunica(command, ".", nowhere);
+    EXPECT_EQ(ended.code, 2) << command.back();
+    EXPECT_EQ(ended.errors, "tunica: the standard output cannot be written: No space left on device\n");
+  }
+}
+
+TEST(Faults, UnitDatabaseWithoutTheUnitsOfAllIsTold) {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() / "none.xml")
+      << "<?xml version=\"1.0\" encoding=\"US-ASCII\"?>\n<unit-system></unit-system>\n";
+  const Ended ended = test_support::tunica({"scene", scene, "--set", "inlet.pressure=75 mmHg"}, folder.path(),
+                                           [] { ::setenv("UDUNITS2_XML_PATH", "none.xml", 1); });
+  EXPECT_EQ(ended.code, 2);
+  EXPECT_TRUE(is_one_line(ended.errors)) << ended.errors;
+  EXPECT_NE(ended.errors.find("set UDUNITS2_XML_PATH to udunits2.xml"), std::string::npos) << ended.errors;
 }
 
 TEST(Faults, UnwritableFolderIsTold) {

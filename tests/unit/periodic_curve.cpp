@@ -9,6 +9,8 @@
 #include <functional>
 #include <memory>
 
+#include "core/gsl.hpp"
+
 namespace tunica {
 namespace {
 
@@ -30,7 +32,9 @@ class Gsl {
  public:
   Gsl(const gsl_interp_type* type, Samples samples)
       : samples_(std::move(samples)), curve_(gsl_interp_alloc(type, samples_.time.size()), &gsl_interp_free) {
-    gsl_interp_init(curve_.get(), samples_.time.data(), samples_.value.data(), samples_.time.size());
+    check_gsl(
+        gsl_interp_init(curve_.get(), samples_.time.data(), samples_.value.data(), samples_.time.size()),
+        "gsl_interp_init");
   }
   double at(double time) const {
     return gsl_interp_eval(curve_.get(), samples_.time.data(), samples_.value.data(), time, nullptr);

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <gsl/gsl_errno.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 
+#include "core/gsl.hpp"
 #include "core/quadrature.hpp"
 #include "core/root.hpp"
 
@@ -46,6 +48,20 @@ TEST(GaussLegendre, WeightsArePositiveAndPointsAscendInsideTheInterval) {
       EXPECT_LT(position, 1.0);
       before = position;
     }
+  }
+}
+
+TEST(GaussLegendre, RefusesARuleWithoutPoints) {
+  EXPECT_THROW(gauss_legendre(0), std::invalid_argument);
+}
+
+TEST(CheckGsl, NamesTheCallAndTheReason) {
+  check_gsl(GSL_SUCCESS, "gsl_call");
+  try {
+    check_gsl(GSL_EDOM, "gsl_call");
+    FAIL() << "an error of GSL went by";
+  } catch (const std::runtime_error& error) {
+    EXPECT_STREQ(error.what(), "gsl_call: input domain error");
   }
 }
 
