@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/observables/stops.hpp"
 #include "core/scene/unused.hpp"
+#include "core/units.hpp"
 #include "lumped/integrator.hpp"
 #include "lumped/limit_cycle.hpp"
 #include "lumped/network.hpp"
@@ -118,7 +119,6 @@ class LumpedRun final : public TierRun {
   /// pressure that the inflow asks for at the outlet's resistance.
   std::string reason(const SolverFailure& failure) const {
     if (network_.inlet().is_pressure) return failure.what();
-    constexpr double mmhg = 1333.22387;
     const auto carried = network_.curve().greatest_pressure();
     const double asked = scene_.number("outlet.pressure") + scene_.number("outlet.resistance") *
                                                                 network_.inlet_scale() *

@@ -12,7 +12,6 @@
 
 namespace tunica::verification {
 
-inline constexpr double mmhg = 1333.22387;  ///< dyn/cm2
 inline constexpr std::string_view fs_law = "EXP1+EXP2-FS";
 inline constexpr std::string_view zs_law = "EXP1+EXP2-ZS";
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/observables/record.hpp"
+#include "core/units.hpp"
 #include "verification/answer_parts.hpp"
 
 namespace tunica::verification {

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "core/observables/record.hpp"
+#include "core/units.hpp"
 #include "verification/answer_parts.hpp"
 
 namespace tunica::verification {

@@ -12,6 +12,7 @@
 
 #include "axisym/axisym_tier.hpp"
 #include "core/observables/result.hpp"
+#include "core/units.hpp"
 #include "verification/line_chart.hpp"
 #include "verification/page.hpp"
 #include "verification/ripple_lines.hpp"
@@ -58,7 +59,7 @@ Outcome run(const std::filesystem::path& file, const Case& c) {
   for (double t = 0.01; t < end - 1e-9; t += 0.005) times.push_back(t);
   times.push_back(end - 1e-6);
   // R Q = p: the flow that makes the pressure at the printed resistance.
-  const double flow = c.pressure * 1333.22387 / 1.032e6;
+  const double flow = c.pressure * mmhg / 1.032e6;
   const Scene scene = read_scene(
       file,
       {fmt::format("wall.law={}", c.law), fmt::format("mesh.element={}", c.element),

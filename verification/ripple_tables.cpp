@@ -13,6 +13,7 @@
 #include "core/radial/from_scene.hpp"
 #include "core/stability/half_space.hpp"
 #include "core/stability/scan.hpp"
+#include "core/units.hpp"
 
 namespace tunica::verification {
 
@@ -26,7 +27,6 @@ using stability::UnstableRange;
 
 namespace {
 
-constexpr double mmhg = 1333.22387;  // dyn/cm2
 constexpr double h = 0.01, density = 1.2;
 constexpr double least_pressure = 0.1 * mmhg, greatest_pressure = 200 * mmhg;
 const std::vector<std::string> laws{"EXP1", "EXP2", "EXP1+EXP2-ZS", "EXP1+EXP2-FS"};

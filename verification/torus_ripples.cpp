@@ -14,6 +14,7 @@
 
 #include "core/observables/build_info.hpp"
 #include "core/observables/result.hpp"
+#include "core/units.hpp"
 #include "full3d/full3d_tier.hpp"
 #include "full3d/petsc.hpp"
 #include "verification/line_chart.hpp"
@@ -26,7 +27,6 @@ using namespace tunica::verification;
 namespace {
 
 constexpr double thickness = 0.01;  // cm
-constexpr double mmhg = 1333.22387;
 
 struct Case {
   std::string name;

@@ -14,6 +14,7 @@
 #include "app/report/summary.hpp"
 #include "core/observables/record.hpp"
 #include "core/scene/parameter.hpp"
+#include "core/units.hpp"
 #include "core/wall/catalog.hpp"
 
 namespace tunica::report {

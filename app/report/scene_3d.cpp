@@ -12,6 +12,7 @@
 #include "app/report/html.hpp"
 #include "app/report/quantise.hpp"
 #include "app/report/surface.hpp"
+#include "core/units.hpp"
 
 namespace tunica::embedded {
 std::string_view viewer_template();

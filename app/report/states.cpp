@@ -7,6 +7,7 @@
 #include "app/report/html.hpp"
 #include "app/report/sections.hpp"
 #include "core/observables/record.hpp"
+#include "core/units.hpp"
 
 namespace tunica::report {
 

@@ -5,6 +5,7 @@
 
 #include "app/report/labels.hpp"
 #include "core/observables/record.hpp"
+#include "core/units.hpp"
 
 namespace tunica::report {
 

@@ -10,8 +10,6 @@
 
 namespace tunica::report {
 
-inline constexpr double mmhg = 1333.22387;  ///< dyn/cm2
-
 /// A run as the report speaks of it.
 struct RunSummary {
   const StoredResult* stored = nullptr;

@@ -12,6 +12,7 @@
 #include "app/report/labels.hpp"
 #include "app/report/sections.hpp"
 #include "core/observables/record.hpp"
+#include "core/units.hpp"
 #include "verification/claims.hpp"
 
 namespace tunica::report {

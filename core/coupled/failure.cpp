@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/radial/wall_curve.hpp"
+#include "core/units.hpp"
 
 namespace tunica::coupled {
 
@@ -38,7 +39,7 @@ std::string explain(const Equations& equations, const NewtonReport& report) {
 
 std::string limit_of_wall(const radial::RingModel* ring, double pressure) {
   if (!ring || pressure <= 0) return {};
-  constexpr double mmhg = 1333.22387, growth = 1.03;
+  constexpr double growth = 1.03;
   // Where pressure grows by less than this share of the growth of the stretch, it will not grow much more.
   constexpr double flat = 0.3;
   double greatest = 0, at = 1, before = 0;

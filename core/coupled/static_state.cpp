@@ -9,12 +9,11 @@
 #include "core/coupled/failure.hpp"
 #include "core/error.hpp"
 #include "core/radial/wall_curve.hpp"
+#include "core/units.hpp"
 
 namespace tunica::coupled {
 
 namespace {
-
-constexpr double mmhg = 1333.22387;
 
 /// Displacement of the lumen, over its radius, that a ring of the wall at mid-length has under a share of the
 /// load: what states under different loads are compared by, since it grows more evenly than the load. The

@@ -12,12 +12,12 @@
 #include "core/radial/incompressible_ring.hpp"
 #include "core/stability/half_space.hpp"
 #include "core/stability/scan.hpp"
+#include "core/units.hpp"
 
 namespace tunica::stability {
 
 namespace {
 
-constexpr double mmhg = 1333.22387;  // dyn/cm2
 /// The shortest ripple that is looked at, beside the limit of short waves; a share of the thickness.
 constexpr double shortest = 0.1;
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/observables/result.hpp"
+#include "core/units.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -131,7 +132,6 @@ TEST_P(PhysiologicScene, StaysWithinTheBody) {
   const observables::Table table = read_result(out).result.observables;
   const auto& time = table.find("time")->values;
   const double end = time.back();
-  constexpr double mmhg = 1333.22387;
   for (std::size_t k = 0; k < time.size(); ++k) {
     const double u1 = table.find("radial_displacement.P1")->values[k];
     const double u4 = table.find("radial_displacement.P4")->values[k];

@@ -7,12 +7,13 @@
 
 #include "axisym/assembler.hpp"
 #include "axisym/structured.hpp"
+#include "core/units.hpp"
 #include "tests/mms/thick_ring.hpp"
 
 namespace tunica::axisym {
 namespace {
 
-using test_support::mmhg, test_support::ThickRing;
+using test_support::ThickRing;
 
 ThickRing::Difference difference(const ThickRing& ring, int cells, CellShape shape = CellShape::quadrilateral,
                                  Element element = Element::quadratic) {

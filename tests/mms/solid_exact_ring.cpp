@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "core/units.hpp"
 #include "full3d/assembler.hpp"
 #include "full3d/o_grid.hpp"
 #include "tests/mms/thick_ring.hpp"
@@ -14,7 +15,7 @@
 namespace tunica::full3d {
 namespace {
 
-using test_support::mmhg, test_support::ThickRing;
+using test_support::ThickRing;
 
 /// With so many cells through the wall, and eight times as many around the whole of it.
 ThickRing::Difference difference(const ThickRing& ring, int cells,

@@ -18,8 +18,6 @@
 
 namespace tunica::test_support {
 
-inline constexpr double mmhg = 1333.22387;
-
 /// A slice of a long artery under pressure, its ends sliding: the thick ring of the 0D wall.
 class ThickRing {
  public:

@@ -6,6 +6,8 @@
 #include <limits>
 #include <map>
 
+#include "core/units.hpp"
+
 namespace tunica::test_support {
 
 namespace {
@@ -13,7 +15,7 @@ namespace {
 using namespace observables;
 using Point = std::array<double, 3>;
 
-constexpr double period = 0.8, mmhg = 1333.22387;
+constexpr double period = 0.8;
 
 /// A point by its place in the section and along the tube.
 struct Local {

@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "core/stability/strip.hpp"
+#include "core/units.hpp"
 #include "tests/support/ring_cases.hpp"
 
 namespace tunica::test_support {
 
-inline constexpr double mmhg = 1333.22387;      // dyn/cm2
 inline constexpr double wall_thickness = 0.01;  // cm, of the paper's wall
 inline constexpr double wall_density = 1.2;     // g/cm3
 

@@ -6,13 +6,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/units.hpp"
+
 namespace tunica::test_support {
 
 namespace {
 
 using namespace observables;
 
-constexpr double mmhg = 1333.22387;
 constexpr double period = 0.8;
 constexpr double peak = 0.2112;
 

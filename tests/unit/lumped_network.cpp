@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/radial/wall_curve.hpp"
+#include "core/units.hpp"
 #include "tests/support/lumped_runs.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -47,7 +48,7 @@ TEST(LumpedNetwork, MassIsConserved) {
 // Before the loads grow nothing moves, so that there is no blow from the vessels beyond; later they are all
 // there: under steady flow the outlet's pressure is that beyond plus R Q.
 TEST(LumpedNetwork, ThePressureBeyondTheOutletGrowsWithTheInlet) {
-  constexpr double beyond = 40 * 1333.22387;
+  constexpr double beyond = 40 * mmhg;
   for (const char* outlet : {"resistance", "rcr"}) {
     const Result result = run_lumped({std::string("outlet.kind=") + outlet, "outlet.pressure=40 mmHg",
                                       "inlet.waveform=constant", "inlet.flow=0.05", "time.beats=6"});
@@ -181,8 +182,8 @@ TEST(LumpedNetwork, PressureAtTheInletDrivesTheFlow) {
   const double radius = inner + column(result.observables, "radial_displacement.P1").back();
   const double poiseuille = 8 * 0.035 * length / (pi * std::pow(radius, 4));
   // The lumen narrows a little along the artery: its middle stands for its mean to some 1e-4 of 1 %.
-  EXPECT_NEAR(flow * (1.032e6 + poiseuille) / 133322.387, 1, 1e-5);
-  EXPECT_NEAR(column(result.observables, "pressure").back() / 133322.387, 1 - 0.5 * poiseuille / 1.032e6,
+  EXPECT_NEAR(flow * (1.032e6 + poiseuille) / (100 * mmhg), 1, 1e-5);
+  EXPECT_NEAR(column(result.observables, "pressure").back() / (100 * mmhg), 1 - 0.5 * poiseuille / 1.032e6,
               2e-4);
   EXPECT_GT(*std::max_element(inflow.begin(), inflow.end()), 1.2 * flow) << "filling the lumen takes flow";
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "core/units.hpp"
 #include "tests/support/lumped_runs.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -81,8 +82,8 @@ TEST(LumpedWaveform, PressureFromAFile) {
   EXPECT_TRUE(inlet.is_pressure);
   EXPECT_EQ(inlet.period, 0.5);
   EXPECT_EQ(inlet.scale_key, "");
-  EXPECT_NEAR(inlet.shape_at(0.1), 120 * 1333.22387, 1e-6);
-  EXPECT_NEAR(inlet.shape_at(1.3), 100 * 1333.22387, 1e-6);
+  EXPECT_NEAR(inlet.shape_at(0.1), 120 * mmhg, 1e-6);
+  EXPECT_NEAR(inlet.shape_at(1.3), 100 * mmhg, 1e-6);
 }
 
 // A published inflow whose diastole without flow is told by its two ends: blood never flows back, and no step

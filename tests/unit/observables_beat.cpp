@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "core/error.hpp"
+#include "core/units.hpp"
 #include "tests/support/synthetic.hpp"
 
 using namespace tunica;
@@ -64,8 +65,8 @@ TEST(Beat, RangeCoversTheLastBeatOnly) {
   const Table& table = run.result.observables;
   const Range pressure = range(table, "pressure", last_beat(run));
   // Rows are 1 ms apart, the extremes lie up to half of that beside them.
-  EXPECT_NEAR(pressure.lowest / 1333.22387, 70, 1e-3);
-  EXPECT_NEAR(pressure.highest / 1333.22387, 120, 1e-3);
+  EXPECT_NEAR(pressure.lowest / mmhg, 70, 1e-3);
+  EXPECT_NEAR(pressure.highest / mmhg, 120, 1e-3);
   EXPECT_TRUE(is_none(range(table, "no_such_column", last_beat(run)).lowest));
   const StoredResult isotropic = synthetic_run({.law = "EXP1"});
   EXPECT_TRUE(is_none(range(isotropic.result.observables, "fiber_angle.P1", last_beat(isotropic)).highest));

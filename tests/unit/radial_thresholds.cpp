@@ -5,12 +5,11 @@
 #include <array>
 
 #include "core/radial/wall_curve.hpp"
+#include "core/units.hpp"
 #include "tests/support/ring_cases.hpp"
 
 namespace tunica {
 namespace {
-
-constexpr double mmhg = 1333.22387;
 
 std::array<double, 4> recruitment_pressures(const std::vector<std::string>& overrides) {
   const radial::WallCurve curve(test_support::model_with(overrides), {0.0, 1.0 / 3, 2.0 / 3, 1.0});

@@ -5,6 +5,7 @@
 #include "app/report/report.hpp"
 #include "app/report/summary.hpp"
 #include "core/error.hpp"
+#include "core/units.hpp"
 #include "tests/support/synthetic.hpp"
 
 using namespace tunica;

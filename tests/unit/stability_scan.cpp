@@ -10,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/stability/warning.hpp"
+#include "core/units.hpp"
 #include "tests/support/strip_cases.hpp"
 
 namespace tunica {
@@ -18,7 +19,6 @@ namespace {
 using stability::BaseState;
 using stability::Scan;
 using stability::Strip;
-using test_support::mmhg;
 using test_support::model_with;
 using test_support::scene_with;
 using test_support::wall_density;
