@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "core/error.hpp"
+#include "core/gsl.hpp"
 #include "core/radial/wall_curve.hpp"
 
 namespace tunica::coupled {
@@ -19,7 +20,7 @@ std::vector<Band> spectrum(const Inlet& inlet, bool from_rest) {
   std::vector<double> values(samples);
   for (std::size_t k = 0; k < samples; ++k)
     values[k] = inlet.shape->at(inlet.period * static_cast<double>(k) / samples);
-  gsl_fft_real_radix2_transform(values.data(), 1, samples);
+  check_gsl(gsl_fft_real_radix2_transform(values.data(), 1, samples), "gsl_fft_real_radix2_transform");
   // Real parts of the harmonics, then, backwards, their imaginary parts.
   std::vector<Band> bands;
   double first = 0;
