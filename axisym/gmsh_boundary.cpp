@@ -153,8 +153,7 @@ class Marker {
     if (!blood_) return Boundary::interface;
     refuse_open(cell, i,
                 "is neither named \"outer\", \"wall_inlet\" or \"wall_outlet\" nor shared with the blood; "
-                "name it, or "
-                "mesh blood and wall together (Coherence) so that they share their nodes");
+                "name it, or mesh blood and wall together (Coherence) so that they share their nodes");
   }
 
   [[noreturn]] void refuse_open(int cell, int i, const char* why) const {

@@ -39,8 +39,8 @@ void check_spec(const TubeSpec& spec) {
   const double nodes = (2 * columns + 1) * (2.0 * spec.axial_cells + 1);
   if (nodes > most_nodes)
     throw InvalidInput(
-        fmt::format("the mesh would have {:.3g} nodes; at most {:g} are allowed: lower "
-                    "mesh.axial_cells, mesh.blood_cells or mesh.wall_cells",
+        fmt::format("the mesh would have {:.3g} nodes; at most {:g} are allowed: lower mesh.axial_cells, "
+                    "mesh.blood_cells or mesh.wall_cells",
                     nodes, most_nodes));
 }
 

@@ -41,8 +41,8 @@ void check_bend(const VesselSpec& spec) {
   if (!(spec.length / spec.bend_angle > outer))
     throw InvalidInput(
         fmt::format("geometry.bend_angle = {:g} deg bends a vessel of geometry.length = {:g} cm about a "
-                    "radius of {:.4g} cm; "
-                    "it must exceed the outer radius of {:g} cm: lower the angle or raise the length",
+                    "radius of {:.4g} cm; it must exceed the outer radius of {:g} cm: lower the angle or "
+                    "raise the length",
                     degrees(spec.bend_angle), spec.length, spec.length / spec.bend_angle, outer));
 }
 

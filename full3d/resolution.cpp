@@ -56,8 +56,7 @@ Sector sector_of(const Scene& scene) {
   if (asked == "quarter" && bent)
     throw InvalidInput(
         "mesh.symmetry = \"quarter\" is for straight arteries; a torus is its own mirror image about the "
-        "plane of "
-        "its bend alone: write \"half\" or \"auto\"");
+        "plane of its bend alone: write \"half\" or \"auto\"");
   if (asked == "half" || (asked == "auto" && balanced && bent)) return Sector::half;
   if (asked == "quarter" || (asked == "auto" && balanced)) return Sector::quarter;
   return Sector::full;

@@ -80,8 +80,7 @@ SteadyState find_steady_state(const System& given, const std::vector<double>& gu
   if (!found)
     throw SolverFailure(
         "no steady state was found: the artery does not come to rest under the inlet's value at the start, "
-        "or "
-        "Newton's method on its balances does not converge; start from rest");
+        "or Newton's method on its balances does not converge; start from rest");
 
   if (parameters.empty()) return steady;
   linear::BandMatrix matrix = jacobian(system, time, steady.state);

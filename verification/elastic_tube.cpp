@@ -174,8 +174,7 @@ std::string limit_table(const Limits& limits) {
                percent(limits.tube.time, published_limit.time), fmt::format("{:g} %", 100 * time_bar)}}) +
          fmt::format(
              "Ours: cells {} at {:g} s, plus {:+.5f} mm for smaller steps, and for smaller cells {:+.5f} mm "
-             "{}, "
-             "{:+.5f} mm {} and {:+.5f} mm {}.\n\n",
+             "{}, {:+.5f} mm {} and {:+.5f} mm {}.\n\n",
              usual.name(), usual_step, limits.in_time, limits.in_mesh[0], directions[0].name,
              limits.in_mesh[1], directions[1].name, limits.in_mesh[2], directions[2].name);
 }

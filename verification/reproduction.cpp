@@ -109,14 +109,12 @@ std::string document(const std::vector<StoredResult>& runs, std::vector<StoredRe
       "The rows above that change when the fibre law is read otherwise, one thing at a time: a² = 1.520 or "
       "1.270 (other\n"
       "ways to take λ_A, `wall.activation_squared`), or the exponent 1 as printed (`wall.exponent = 1`), "
-      "each "
-      "under the\n"
+      "each under the\n"
       "tethers `normal` (`current` is the same) and `reference`. With exponent 1 tissue\n"
       "[lingers at the threshold](theory/core.md#the-thick-ring), and the intervals are those in which H > "
       "1/2; the run of\n"
       "EXP1+EXP2-ZS starts on the limit cycle, since from rest, where it has residual stress, the solver "
-      "gives "
-      "up when all\n"
+      "gives up when all\n"
       "fibres are recruited at once.\n\n"
       "{}",
       tally(comparison, {"normal", "current", "reference"}), to_markdown(comparison),

@@ -113,8 +113,8 @@ RippleTable by_law() {
   RippleTable table{
       "laws",
       "Which walls ripple",
-      "Lumen pressures in mmHg between which the smooth state is unstable, up to 200 mmHg. "
-      "*Short waves*: the limit of\nvanishing wave length, where the problem is ill-posed.",
+      "Lumen pressures in mmHg between which the smooth state is unstable, up to 200 mmHg. *Short waves*: "
+      "the limit of\nvanishing wave length, where the problem is ill-posed.",
       {"Law", "Tether", "Short waves", "0.05 h to 100 h", "h to 100 h", "Of these first", "Longest"},
       {}};
   const auto from_h = stability::wave_lengths(h, 100 * h, 81);
@@ -314,10 +314,9 @@ RippleTable of_current() {
       "current",
       "The tether per current area",
       "Its load has no energy. *Energy*: mmHg where the symmetric part of K is not positive, 0.05 h to 100 "
-      "h, which a "
-      "conservative\nload would make an instability. *Monotone growth*: where K itself has an eigenvalue "
-      "below 0. "
-      "*Flutter*: fastest growth of an\noscillation where two modes meet, undamped, up to 160 mmHg.",
+      "h, which a conservative\nload would make an instability. *Monotone growth*: where K itself has an "
+      "eigenvalue below 0. *Flutter*: fastest growth of an\noscillation where two modes meet, undamped, up "
+      "to 160 mmHg.",
       {"Law", "Energy", "Monotone growth", "Flutter, 1/s", "at angular frequency, 1/s", "at, mmHg",
        "Wave length"},
       {}};

@@ -310,8 +310,8 @@ std::string viewer_section(const Scene3d& scene) {
 std::string viewer_scripts(const Scene3d& scene) {
   if (scene.json.empty()) return {};
   return fmt::format(
-      "<script type=\"application/json\" "
-      "id=\"scene\">{}</script>\n<script>{}</script>\n<script>\n{}{}{}</script>\n",
+      "<script type=\"application/json\" id=\"scene\">{}</script>\n<script>{}</script>\n"
+      "<script>\n{}{}{}</script>\n",
       scene.json, embedded::three_script(), embedded::viewer_shaders(), embedded::viewer_camera(),
       embedded::viewer_script());
 }

@@ -86,8 +86,7 @@ std::string states_section(const std::vector<RunSummary>& runs) {
       "<section aria-labelledby=\"states\">\n  <h2 id=\"states\">Static states</h2>\n  {}"
       "  <div class=\"charts\" id=\"state-charts\"></div>\n</section>\n",
       table("Runs of a single state have these values in place of curves over time. Fibres are recruited "
-            "where H is "
-            "above 1/2; P1 lies on the inner, P4 on the outer surface.",
+            "where H is above 1/2; P1 lies on the inner, P4 on the outer surface.",
             head, body));
 }
 

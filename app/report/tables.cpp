@@ -90,8 +90,7 @@ std::string readings_sentence(const std::vector<ClaimRow>& rows) {
                                    [](const ClaimRow& row) { return row.verdict == Verdict::disagrees; });
   std::string text =
       "<p>The paper leaves open how its tether presses, where collagen is recruited (a²) and which exponent "
-      "its "
-      "fibre law has. ";
+      "its fibre law has. ";
   if (!list.empty()) text += fmt::format("These runs read it so: {}. ", list);
   if (wrong > 0)
     text += fmt::format("{} under {}; no reading makes all of them agree, and nothing is tuned to. ",
@@ -135,20 +134,17 @@ std::string headline_table(const std::vector<RunSummary>& runs) {
   }
   const char* head =
       "<tr><th scope=\"col\" rowspan=\"2\">Run</th><th scope=\"col\" rowspan=\"2\">Pressure<br>mmHg</th>"
-      "<th scope=\"col\" rowspan=\"2\">Transmural<br>mmHg</th><th scope=\"colgroup\" colspan=\"2\">Inner "
-      "radius, % "
-      "of R<sub>0</sub></th><th scope=\"colgroup\" colspan=\"2\">Fibre angle P1 to P4, °</th>"
-      "<th scope=\"colgroup\" colspan=\"4\">Fibres recruited, % of the beat</th></tr>"
-      "<tr><th scope=\"col\">change</th><th scope=\"col\">largest rise</th><th scope=\"col\">start of "
-      "beat</th>"
-      "<th scope=\"col\">systole</th><th scope=\"col\">P1</th><th scope=\"col\">P2</th><th "
-      "scope=\"col\">P3</th>"
-      "<th scope=\"col\">P4</th></tr>";
+      "<th scope=\"col\" rowspan=\"2\">Transmural<br>mmHg</th>"
+      "<th scope=\"colgroup\" colspan=\"2\">Inner radius, % of R<sub>0</sub></th>"
+      "<th scope=\"colgroup\" colspan=\"2\">Fibre angle P1 to P4, °</th>"
+      "<th scope=\"colgroup\" colspan=\"4\">Fibres recruited, % of the beat</th></tr><tr>"
+      "<th scope=\"col\">change</th><th scope=\"col\">largest rise</th><th scope=\"col\">start of beat</th>"
+      "<th scope=\"col\">systole</th><th scope=\"col\">P1</th><th scope=\"col\">P2</th>"
+      "<th scope=\"col\">P3</th><th scope=\"col\">P4</th></tr>";
   std::string caption =
       "Over the last whole beat. Pressure is the mean over the section at mid-length; change is the largest "
       "minus the smallest inner radius; systole is the peak of the inflow; P1 lies on the inner, P4 on the "
-      "outer "
-      "surface.";
+      "outer surface.";
   if (std::any_of(runs.begin(), runs.end(), [](const RunSummary& run) { return run.is_state; }))
     caption += " Of a static state: its values, and whether fibres are recruited.";
   return table(caption, head, body);
@@ -177,8 +173,7 @@ std::string claims_section(const std::vector<StoredResult>& stored, const std::v
     }
     text += readings_sentence(rows) + verdict_counts(rows);
     text += table(
-        "Each claim on the paper's arteries beside these runs, with the reading of what the paper "
-        "misprints "
+        "Each claim on the paper's arteries beside these runs, with the reading of what the paper misprints "
         "or leaves open. A number agrees when it lies within the tolerance printed below the paper's.",
         "<tr><th scope=\"col\">Claim</th><th scope=\"col\">Paper</th><th scope=\"col\">Ours</th>"
         "<th scope=\"col\">Verdict</th><th scope=\"col\">Reading</th><th scope=\"col\">Remarks</th></tr>",
@@ -205,8 +200,8 @@ std::string events_section(const std::vector<RunSummary>& runs) {
       const double at = time->values[row];
       const double in_beat = at - runs[index].beat.start;
       body += fmt::format(
-          "<tr>{}<td class=\"text\">{}</td><td>{}</td><td "
-          "class=\"text\">{}</td><td>{}</td><td>{}</td><td>{}</td></tr>",
+          "<tr>{}<td class=\"text\">{}</td><td>{}</td><td class=\"text\">{}</td><td>{}</td><td>{}</td>"
+          "<td>{}</td></tr>",
           run_header(runs[index], index), escape(point->labels[row]), number(family->values[row], 0),
           escape(change->labels[row]), number(at, 5), in_beat >= 0 ? number(in_beat, 5) : "–",
           number(value_at(stored.result.observables, "pressure", at) / mmhg, 2));
@@ -328,8 +323,8 @@ std::string runs_section(const std::vector<RunSummary>& runs) {
                         escape(run.label), escape(run.tier), escape(run.stored->folder.string()));
     text += "<h4>Record</h4>\n" + record_list(run.stored->record);
     text += plain_table(
-        "Time for which the fibres of a point are recruited in the last beat, and how it moves "
-        "with the scene's parameters.",
+        "Time for which the fibres of a point are recruited in the last beat, and how it moves with the "
+        "scene's parameters.",
         run.stored->result.recruited_time);
     text += plain_table("How the instants of recruitment and release move with the scene's parameters.",
                         run.stored->result.event_sensitivities);

@@ -50,8 +50,7 @@ void remark_on_pressure(const Table& table, const Beat& beat, std::vector<std::s
     return;
   lines.push_back(
       fmt::format("the lumen's pressure is {:.4g} to {:.4g} mmHg in the last beat, {:.4g} in the mean: "
-                  "living arteries have "
-                  "{:g} to {:g} in the mean, and at most {:g}",
+                  "living arteries have {:g} to {:g} in the mean, and at most {:g}",
                   lowest, highest, average, living::mean_pressure.lowest, living::mean_pressure.highest,
                   living::pressure.highest));
 }
@@ -82,8 +81,7 @@ void remark_on_repetition(const Scene& scene, const Table& table, const Beat& be
   if (!changes.empty())
     lines.push_back(
         fmt::format("the last beat does not repeat itself: from its start to its end {}; compute more beats "
-                    "(time.beats = "
-                    "{}), or write time.start = \"periodic\"",
+                    "(time.beats = {}), or write time.start = \"periodic\"",
                     fmt::join(changes, ", "), scene.integer("time.beats")));
 }
 

@@ -41,10 +41,8 @@ std::unique_ptr<const RingModel> ring_model(const Scene& scene, const std::vecto
       if (family.exponent == 1 && family.recruitment.sharp)
         throw InvalidInput(
             "wall.recruitment = \"sharp\" with wall.exponent = 1: the stress would jump, and compressible "
-            "tissue then "
-            "lingers at the threshold partly recruited, which a step cannot express; use recruitment = "
-            "\"smooth\" or "
-            "incompressible = true");
+            "tissue then lingers at the threshold partly recruited, which a step cannot express; use "
+            "recruitment = \"smooth\" or incompressible = true");
   return std::make_unique<CompressibleRing>(std::move(ring), std::move(seeded));
 }
 

@@ -112,8 +112,7 @@ void remark_on_flow(const Load& load, const Scene& scene, const IsPlain& is_plai
   if (velocity > 2 * living::mean_velocity.highest || !slip.empty())
     lines.push_back(fmt::format(
         "a mean flow of {:.4g} cm3/s in a radius of {:g} cm is a mean velocity of {:.4g} cm/s, where "
-        "arteries "
-        "have {:g} to {:g} cm/s{}",
+        "arteries have {:g} to {:g} cm/s{}",
         load.flow, load.radius, velocity, living::mean_velocity.lowest, living::mean_velocity.highest, slip));
 }
 
@@ -130,8 +129,7 @@ void remark_on_times(const Scene& scene, const IsPlain& is_plain, std::vector<st
     const double duration = scene.number("inlet.duration");
     lines.push_back(
         fmt::format("time.ramp = {:g} s is longer than the pulse, inlet.duration = {:g} s, whose first "
-                    "reaches {:.2g} % of "
-                    "inlet.pressure only; write time.ramp = 0",
+                    "reaches {:.2g} % of inlet.pressure only; write time.ramp = 0",
                     ramp, duration, 50 * (1 - std::cos(std::numbers::pi * duration / ramp))));
   } else if (ramp > period) {
     lines.push_back(

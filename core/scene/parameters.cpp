@@ -132,8 +132,7 @@ std::vector<Parameter> declare() {
                  {},
                  {},
                  "Gmsh file of the artery, in space or its half plane (x = r, y = z), in cm, with the named "
-                 "parts blood, wall, "
-                 "inlet, outlet, outer, wall_inlet and wall_outlet."});
+                 "parts blood, wall, inlet, outlet, outer, wall_inlet and wall_outlet."});
   all.push_back(
       number("geometry.radius", "cm", 0.033, positive(10), "Inner radius R0 of the unloaded artery."));
   all.push_back(number("geometry.thickness", "cm", 0.01, positive(10), "Thickness h of the unloaded wall."));
@@ -191,9 +190,8 @@ std::vector<Parameter> declare() {
        {},
        "What is prescribed at the inlet: \"ica\" (flow of the internal carotid artery), \"constant\" (flow), "
        "\"pressure\" (constant pressure), \"pulse\" (inlet.pressure for inlet.duration, then 0, once a "
-       "period), or "
-       "the name of a CSV file with one period of time[s] and "
-       "flow[cm3/s] or pressure[dyn/cm2] (any unit of that dimension)."});
+       "period), or the name of a CSV file with one period of time[s] and flow[cm3/s] or pressure[dyn/cm2] "
+       "(any unit of that dimension)."});
   all.push_back(number("inlet.flow", "cm3/s", {}, between(-1e5, 1e5),
                        "Mean flow of the \"ica\" and \"constant\" waveforms.",
                        "4.25 (radius/0.195)^2: the carotid's 255 ml/min scaled by lumen area"));
@@ -232,8 +230,7 @@ std::vector<Parameter> declare() {
       {"time.beats", Kind::integer, "1", 2L, "", between(1, 1000), {}, "Number of heart beats to compute."});
   all.push_back(choice("time.start", "rest", {"rest", "static", "periodic"},
                        "Start from rest (no load, no flow), from the steady state of the inlet's value at "
-                       "time 0 (static), or on "
-                       "the limit cycle so that every beat is alike."));
+                       "time 0 (static), or on the limit cycle so that every beat is alike."));
   all.push_back(number(
       "time.ramp", "s", 0.05, from_zero(10),
       "From rest, the inlet grows smoothly to its waveform, and outlet.pressure to its value, over this "

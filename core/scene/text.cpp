@@ -131,8 +131,8 @@ void check_scene_text(std::string_view text, const std::string& label) {
   constexpr std::size_t most_parts = 16;
   if (most_dotted_parts(text) > most_parts)
     throw InvalidInput(
-        fmt::format("{} has a key of more than {} dotted parts; keys have at most four, for "
-                    "example wall.layers[0].stiffness",
+        fmt::format("{} has a key of more than {} dotted parts; keys have at most four, for example "
+                    "wall.layers[0].stiffness",
                     label, most_parts));
 }
 

@@ -213,8 +213,8 @@ TEST_P(Observed, EventsAreThoseOfTheFamiliesThatDoNotActAlike) {
   spec.layers = {0.04, 0.08};
   Problem problem =
       this->problem({"wall.layers=[{fraction=0.25, law=\"EXP1+EXP2-FS\", families=[{angle=40}, {angle=-40}, "
-                     "{angle=10}, {angle=-40, activation_squared=1.2}]}, "
-                     "{fraction=0.75, law=\"EXP1+EXP2-ZS\"}]"});
+                     "{angle=10}, {angle=-40, activation_squared=1.2}]}, {fraction=0.75, "
+                     "law=\"EXP1+EXP2-ZS\"}]"});
   const Assembler assembler(problem);
   const Observer observer(assembler);
   const Uniform uniform;
