@@ -126,7 +126,8 @@ CellCounts cell_counts(const Scene& scene) {
   // the length; the rest follow the artery, a long one by cells of some fifty radii.
   const double half_length = 0.5 * scene.number("geometry.length") / scene.number("geometry.radius");
   const int for_ends = 2 * cells((7 + std::round(half_length / 50)) * finer, along, tolerance);
-  counts.axial_cells = scene.text("geometry.kind") == "mesh" ? for_ends : cells_for_waves(scene, for_ends);
+  const bool is_given = scene.text("geometry.kind") == "mesh" || scene.has("mesh.axial_cells");
+  counts.axial_cells = is_given ? for_ends : cells_for_waves(scene, for_ends);
   counts.local_tolerance = 0.03 * tolerance;
   // The errors of waves that run to and fro add up.
   if (counts.axial_cells > for_ends) counts.local_tolerance *= 0.3;
