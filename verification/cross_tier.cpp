@@ -52,8 +52,7 @@ class Maker {
     std::size_t run;
     std::string effect;
   };
-  std::vector<Step> make_rungs(const Tier& tier, const std::vector<Rung>& rungs,
-                               std::vector<std::string>& left_out) {
+  std::vector<Step> make_rungs(const Tier& tier, const std::vector<Rung>& rungs, TierComparison& comparison) {
     std::vector<Step> steps;
     std::vector<std::string> taken;
     for (const Rung& rung : rungs) {
@@ -64,20 +63,21 @@ class Maker {
         const Scene before = read_(joined(taken, lean));
         const Scene scene = read_(joined(overrides, lean));
         if (rung.is_there(before) || scene.values() == before.values()) {
-          left_out.push_back(fmt::format("{}: no change to this scene", name));
+          comparison.left_out.push_back(fmt::format("{}: no change to this scene", name));
           continue;
         }
         if (const std::string reason = tier.refusal(scene); !reason.empty()) throw InvalidInput(reason);
         const std::size_t run = rung_run(tier, scene, rung, overrides);
         if (found_.interrupted) break;
         if (!found_.runs[run].is_comparable()) {
-          left_out.push_back(fmt::format("{}: {}", name, found_.runs[run].trouble));
+          comparison.rung_gave_up = true;
+          comparison.left_out.push_back(fmt::format("{}: {}", name, found_.runs[run].trouble));
           continue;
         }
         steps.push_back({run, rung.effect});
         taken = overrides;
       } catch (const InvalidInput& reason) {
-        left_out.push_back(fmt::format("{}: {}", name, reason.what()));
+        comparison.left_out.push_back(fmt::format("{}: {}", name, reason.what()));
       }
     }
     return steps;
@@ -174,6 +174,8 @@ std::string_view to_text(Agreement agreement) {
       return "agrees";
     case Agreement::explained:
       return "differs by the model (explained)";
+    case Agreement::unexplained:
+      return "not explained: a rung gave up";
     case Agreement::disagrees:
       return "disagrees";
   }
@@ -224,6 +226,7 @@ void compare(TierComparison& comparison, const std::vector<VerifiedRun>& runs, d
     const bool remainder_fits = row.remainder.largest <= row.yardstick.limit;
     row.verdict = row.raw.largest <= row.yardstick.limit ? Agreement::agrees
                   : remainder_fits                       ? Agreement::explained
+                  : comparison.rung_gave_up              ? Agreement::unexplained
                                                          : Agreement::disagrees;
     if (row.verdict == Agreement::agrees && !remainder_fits)
       row.note = "what is left is larger: effects cancel each other";
@@ -252,8 +255,8 @@ CrossTier verify(const std::vector<const Tier*>& tiers, const SceneSource& scene
     std::vector<Maker::Step> added, removed;
     for (const Ladder& ladder : between) {
       if (ladder.lower != found.runs[run].tier || ladder.upper != found.runs[reference].tier) continue;
-      added = maker.make_rungs(tier_named(tiers, ladder.lower), ladder.added, comparison.left_out);
-      removed = maker.make_rungs(tier_named(tiers, ladder.upper), ladder.removed, comparison.left_out);
+      added = maker.make_rungs(tier_named(tiers, ladder.lower), ladder.added, comparison);
+      removed = maker.make_rungs(tier_named(tiers, ladder.upper), ladder.removed, comparison);
     }
     if (found.interrupted) return found;
     climb(comparison, added, removed);

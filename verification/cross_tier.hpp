@@ -33,7 +33,9 @@ struct Link {
   std::string effect;    ///< what it measures; empty between the tiers, where the models mean the same
 };
 
-enum class Agreement { agrees, explained, disagrees };
+/// `unexplained` where a rung that would have told an effect of the model gave up: what is left may be that
+/// effect.
+enum class Agreement { agrees, explained, unexplained, disagrees };
 std::string_view to_text(Agreement agreement);
 
 struct QuantityRow {
@@ -54,6 +56,7 @@ struct TierComparison {
   std::vector<Link> links;         ///< between neighbours of `rungs`
   std::vector<std::string>
       left_out;  ///< rungs that could not be taken and why; things that cannot be compared
+  bool rung_gave_up = false;  ///< one of them
   std::vector<QuantityRow> rows;
 
   Agreement verdict() const;
@@ -90,7 +93,8 @@ struct VerifyControl {
 /// each into a folder below `folder`, and compares what they found over the last whole beat, at the same
 /// places and times. Verdicts: a quantity agrees when the largest difference is within its limit (see
 /// yardstick). Beyond, it differs by the model when it is within the limit where the two models mean the same
-/// artery: then the difference comes from the effects that the links measure. Otherwise it disagrees. Throws
+/// artery: then the difference comes from the effects that the links measure. Otherwise it disagrees or, where a rung
+/// gave up, is not explained. Throws
 /// InvalidInput when a tier cannot compute the scene, before anything is computed. A rung that cannot be
 /// taken is left out and named. A tier that gives up is named in failure(); what can be compared still is.
 CrossTier verify(const std::vector<const Tier*>& tiers, const SceneSource& scene,

@@ -160,10 +160,12 @@ std::string verdict_sentence(const CrossTier& found, const TierComparison& compa
     return std::count_if(comparison.rows.begin(), comparison.rows.end(),
                          [&](const QuantityRow& row) { return row.verdict == verdict; });
   };
-  return fmt::format("{} against {} {}: {} quantities agree, {} differ by the model, {} disagree",
+  const auto unexplained = count(Agreement::unexplained);
+  return fmt::format("{} against {} {}: {} quantities agree, {} differ by the model, {} disagree{}",
                      found.runs[comparison.run].tier, found.runs[comparison.reference].tier,
                      to_text(comparison.verdict()), count(Agreement::agrees), count(Agreement::explained),
-                     count(Agreement::disagrees));
+                     count(Agreement::disagrees),
+                     unexplained > 0 ? fmt::format(", {} are not explained", unexplained) : "");
 }
 
 std::string to_text(const CrossTier& found) {

@@ -11,11 +11,14 @@ namespace {
 using namespace verification;
 
 const char* css_class(Agreement verdict) {
-  return verdict == Agreement::agrees ? "agrees" : verdict == Agreement::explained ? "open" : "disagrees";
+  return verdict == Agreement::agrees ? "agrees" : verdict == Agreement::disagrees ? "disagrees" : "open";
 }
 
 std::string look(Agreement verdict) {
-  const char* mark = verdict == Agreement::agrees ? "✓" : verdict == Agreement::explained ? "≈" : "✗";
+  const char* mark = verdict == Agreement::agrees        ? "✓"
+                     : verdict == Agreement::explained   ? "≈"
+                     : verdict == Agreement::unexplained ? "?"
+                                                         : "✗";
   return fmt::format("<td class=\"verdict {}\"><span aria-hidden=\"true\">{}</span> ", css_class(verdict),
                      mark);
 }

@@ -190,8 +190,27 @@ TEST(CrossTier, ARungThatGivesUpOrIsRefusedIsLeftOut) {
   EXPECT_NE(comparison.left_out[0].find("gave up for the test"), std::string::npos);
   EXPECT_NE(comparison.left_out[1].find("no inertance here"), std::string::npos);
   EXPECT_EQ(comparison.links.size(), 2U);
-  EXPECT_EQ(row(comparison, "pressure").verdict, Agreement::disagrees);
+  // What the rung would have told may be all that is left.
+  EXPECT_EQ(row(comparison, "pressure").verdict, Agreement::unexplained);
+  EXPECT_EQ(comparison.verdict(), Agreement::unexplained);
+  EXPECT_NE(to_text(found).find("low against high not explained: a rung gave up"), std::string::npos)
+      << to_text(found);
   EXPECT_EQ(found.failure(), "");
+}
+
+TEST(CrossTier, ARungThatIsRefusedExplainsNothing) {
+  const Made made;
+  const FakeTier low{"low",
+                     [&](const Scene& scene, const RunControl& control) {
+                       return made.low().prepare(scene)->execute(control);
+                     },
+                     [](const Scene& scene) {
+                       return std::string(scene.integer("lumped.compartments") == 5 ? "one alone here" : "");
+                     }};
+  const FakeTier high = made.high();
+  const TemporaryFolder folder;
+  const CrossTier found = verify({&low, &high}, scene_with(), folder.path(), {}, ladder());
+  EXPECT_EQ(found.comparisons.front().verdict(), Agreement::disagrees);
 }
 
 TEST(CrossTier, ATierThatGivesUpIsNamedAndTheOthersAreCompared) {
