@@ -246,15 +246,15 @@ void Assembler::follow(double time, std::span<double> y) const {
       y);
 }
 
-double Assembler::flow(const Stage& stage, std::span<const double> y, Boundary boundary) const {
-  double sum = 0;
+coupled::Throughflow Assembler::flow(const Stage& stage, std::span<const double> y, Boundary boundary) const {
+  coupled::Throughflow sum;
   for (const SideTable& side : tables_.sides) {
     if (side.boundary != boundary) continue;
     const SideNodes nodes = side_nodes(layout_, side, stage, y);
     SideResidual result;
     for (const auto& at : side.points)
       kernel::add_side_residual(BoundaryTerms{problem_, boundary}, at, nodes, result);
-    sum += result.flow;
+    sum.add(result.flow, result.leaving);
   }
   return sum;
 }

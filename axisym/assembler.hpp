@@ -45,8 +45,8 @@ class Assembler final : public coupled::Equations {
   /// Fills `matrix` (from pattern()) with the derivative at a complete state.
   void tangent(const Stage& stage, std::span<const double> y, SparseMatrix& matrix) const;
 
-  /// Flow out through a boundary of the blood, cm3/s, at a complete state.
-  double flow(const Stage& stage, std::span<const double> y, Boundary boundary) const;
+  /// Flow out through a boundary of the blood at a complete state.
+  coupled::Throughflow flow(const Stage& stage, std::span<const double> y, Boundary boundary) const override;
 
  private:
   void add_sides(const Stage& stage, std::span<const double> y, std::span<double> residual) const;

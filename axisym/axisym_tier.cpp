@@ -68,9 +68,7 @@ class AxisymVessel final : public coupled::Vessel {
     if (scene_.text("geometry.kind") == "mesh")
       if (const auto remark = coupled::radius_remark(inlet_radius(setup_->problem.mesh), scene_))
         warnings.push_back(*remark);
-    const physics::Tether& tether = setup_->problem.tether;
-    const bool may_ripple = tether.traction != radial::TetherTraction::normal || tether.stiffness == 0;
-    if (may_ripple && setup_->ring && scene_.text("geometry.kind") != "mesh")
+    if (stability::may_ripple(scene_) && setup_->ring && scene_.text("geometry.kind") != "mesh")
       if (const auto warning = stability::warning(scene_, setup_->expected_pressure))
         warnings.push_back(*warning);
     return warnings;

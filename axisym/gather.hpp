@@ -65,7 +65,8 @@ inline kernel::BloodParameters blood_parameters(const Problem& problem, const Bl
 
 inline kernel::WallParameters wall_parameters(const Problem& problem, const WallTable& table,
                                               const Stage& stage) {
-  return {&problem.laws[table.layer], problem.wall_density, stage.coefficient, table.pressure_terms};
+  return {&problem.laws[table.layer], problem.wall_density, stage.coefficient, table.pressure_terms,
+          stage.wall_pressure_bound};
 }
 
 }  // namespace tunica::axisym

@@ -15,11 +15,13 @@ std::vector<std::string> remarks_on_unused_keys(const Scene& scene, const Setup&
                        "outlet.compliance", "solver.geometry"},
                       "time.mode is \"static\""});
   if (!setup.problem.mesh.has(Part::blood))
-    unused.push_back(
-        {{"blood.", "inlet.profile", "outlet.", "mesh.blood_cells", "mesh.motion", "solver.geometry"},
-         "a wall under a given pressure is computed without its blood"});
+    unused.push_back({{"blood.", "inlet.profile", "inlet.pressure_kind", "outlet.", "mesh.blood_cells",
+                       "mesh.motion", "solver.geometry"},
+                      "a wall under a given pressure is computed without its blood"});
   if (!setup.problem.mesh.has(Part::wall)) unused.push_back({{"solver.geometry"}, "no wall moves"});
   if (setup.inlet.is_pressure) unused.push_back({{"inlet.profile"}, "a pressure drives the flow"});
+  if (setup.problem.inlet.kind == InletKind::prescribed)
+    unused.push_back({{"inlet.pressure_kind"}, "the velocity at the inlet is prescribed"});
   if (scene.text("geometry.kind") == "mesh")
     unused.push_back({{"geometry.thickness", "geometry.length"}, "geometry.kind is \"mesh\""});
   if (scene.text("mesh.element") == "bubble")

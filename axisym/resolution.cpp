@@ -8,6 +8,7 @@
 #include "axisym/gmsh.hpp"
 #include "axisym/structured.hpp"
 #include "core/error.hpp"
+#include "core/stability/warning.hpp"
 
 namespace tunica::axisym {
 
@@ -49,9 +50,8 @@ Mesh wall_alone(Mesh mesh) {
 
 Resolution resolution(const Scene& scene) {
   Resolution r = coupled::cell_counts(scene);
-  if (scene.text("time.mode") == "static") {
-    // A single state is cheap. With these the lumen of the paper's artery is right to 1e-5, wherever in the
-    // wall fibres begin to be recruited: the stress has a kink there, which moves within a cell.
+  if (scene.text("time.mode") == "static" && stability::may_ripple(scene)) {
+    // Whether a static state is stable shows where the mesh has room for ripples.
     r.wall_cells = std::max(r.wall_cells, 16);
     r.blood_cells = std::max(r.blood_cells, 4);
     r.axial_cells = std::max(r.axial_cells, 40);

@@ -73,6 +73,14 @@ void require_balance(const std::vector<wall::Law<double>>& laws) {
       "this tier has no swirl: give each family its mirror image of equal weight, or use --tier full3d");
 }
 
+coupled::Tube tube_of(const Scene& scene, const Problem& problem, const Extent& ends) {
+  const double thickness = problem.mesh.has(Part::wall) ? scene.number("geometry.thickness") : 0;
+  return {scene.number("geometry.radius"), thickness, ends.length(), scene.text("geometry.ends") == "clamped",
+          [&mesh = problem.mesh, begin = ends.inlet](int node) -> coupled::Tube::Place {
+            return {mesh.points[node][1] - begin, mesh.points[node][0], {1, 0, 0}, {0, 1, 0}};
+          }};
+}
+
 /// The ring of the wall that a section cuts.
 std::unique_ptr<const radial::RingModel> ring_at(const Scene& scene, const Section& section) {
   if (scene.text("geometry.kind") != "mesh") return radial::ring_model(scene, {});
@@ -116,8 +124,9 @@ std::unique_ptr<Setup> setup_of(const Scene& scene, const Resolution& resolution
     const Setup* const here = setup.get();
     problem.lumen_pressure = [here](double time) { return here->inlet_value(time); };
   }
+  if (scene.text("geometry.kind") != "mesh") setup->tube = tube_of(scene, problem, ends);
   coupled::estimate_sizes(scene, std::move(ring), *setup);
-  coupled::set_steady_pressure(problem, problem.mesh.has(Part::blood), *setup);
+  coupled::set_steady_state(problem, problem.mesh.has(Part::blood), *setup);
   return setup;
 }
 

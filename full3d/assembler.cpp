@@ -70,8 +70,9 @@ std::vector<double> Assembler::volume_shares() const {
   return shares;
 }
 
-double Assembler::flow(const Stage& stage, std::span<const double> y, Boundary boundary) const {
-  return problem_.copies * all_->flow(stage, y, boundary);
+coupled::Throughflow Assembler::flow(const Stage& stage, std::span<const double> y, Boundary boundary) const {
+  const coupled::Throughflow meshed = all_->flow(stage, y, boundary);
+  return {problem_.copies * meshed.net, problem_.copies * meshed.leaving};
 }
 
 LeastMode Assembler::least_mode(double time, std::span<const double> y) const {

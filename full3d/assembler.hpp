@@ -45,8 +45,9 @@ class Assembler final : public coupled::Equations {
 
   /// Of a wall alone at a complete static state. Throws SolverFailure when a pivot vanishes.
   LeastMode least_mode(double time, std::span<const double> y) const;
-  /// Flow out through a boundary of the whole vessel's blood, cm3/s, at a complete state.
-  double flow(const coupled::Stage& stage, std::span<const double> y, Boundary boundary) const;
+  /// Flow out through a boundary of the whole vessel's blood at a complete state.
+  coupled::Throughflow flow(const coupled::Stage& stage, std::span<const double> y,
+                            Boundary boundary) const override;
   /// Iterations of Krylov methods so far.
   long krylov_iterations() const { return share_.iterations(); }
   /// All cells, on this rank.

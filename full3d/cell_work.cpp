@@ -277,8 +277,8 @@ class Work final : public CellWork {
     }
   }
 
-  double flow(const Stage& stage, std::span<const double> y, Boundary boundary) const override {
-    double sum = 0;
+  coupled::Throughflow flow(const Stage& stage, std::span<const double> y, Boundary boundary) const override {
+    coupled::Throughflow sum;
     std::vector<typename Tables<Width, SideWidth>::SidePoint> points;
     for (const Side& side : sides_) {
       if (side.face.boundary != boundary) continue;
@@ -286,7 +286,7 @@ class Work final : public CellWork {
       const auto nodes = coupled::side_nodes<Frame, SideWidth>(layout_, side.nodes, stage, y);
       kernel::SideResidual<Frame, SideWidth> result;
       for (const auto& point : points) kernel::add_side_residual(terms(boundary), point, nodes, result);
-      sum += result.flow;
+      sum.add(result.flow, result.leaving);
     }
     return sum;
   }
@@ -396,7 +396,7 @@ class Work final : public CellWork {
   }
   kernel::WallParameters wall_parameters(int cell, const Stage& stage) const {
     return {&problem_.laws[problem_.mesh.cells[cell].layer], problem_.wall_density, stage.coefficient,
-            tables_.pressure_terms(cell)};
+            tables_.pressure_terms(cell), stage.wall_pressure_bound};
   }
 
   const Problem& problem_;

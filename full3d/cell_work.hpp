@@ -51,7 +51,8 @@ class CellWork {
   virtual void add_mesh_loads(double time, const coupled::MeshExtension& extension,
                               std::span<double> loads) const = 0;
   /// Flow out through a boundary of the blood, cm3/s.
-  virtual double flow(const coupled::Stage& stage, std::span<const double> y, Boundary boundary) const = 0;
+  virtual coupled::Throughflow flow(const coupled::Stage& stage, std::span<const double> y,
+                                    Boundary boundary) const = 0;
   /// Adds the volumes (cm3) of the nodes of a part to `volumes`, by node.
   virtual void add_volumes(Part part, std::span<double> volumes) const = 0;
   /// Adds the blood's volume to the nodes of velocity, shared out as the squares of their shape functions so

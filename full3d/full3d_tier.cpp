@@ -133,10 +133,12 @@ class Full3dVessel final : public coupled::Vessel {
                          "outlet.compliance", "solver.geometry"},
                         "time.mode is \"static\""});
     if (!assembler_.has_blood())
-      unused.push_back(
-          {{"blood.", "inlet.profile", "outlet.", "mesh.blood_cells", "mesh.motion", "solver.geometry"},
-           "a wall under a given pressure is computed without its blood"});
+      unused.push_back({{"blood.", "inlet.profile", "inlet.pressure_kind", "outlet.", "mesh.blood_cells",
+                         "mesh.motion", "solver.geometry"},
+                        "a wall under a given pressure is computed without its blood"});
     if (setup_->inlet.is_pressure) unused.push_back({{"inlet.profile"}, "a pressure drives the flow"});
+    if (setup_->problem.inlet.kind == InletKind::prescribed)
+      unused.push_back({{"inlet.pressure_kind"}, "the velocity at the inlet is prescribed"});
     if (setup_->axes)
       unused.push_back({{"geometry.thickness", "geometry.length"}, "geometry.kind is \"mesh\""});
     if (scene_.text("mesh.element") == "bubble")
@@ -151,9 +153,7 @@ class Full3dVessel final : public coupled::Vessel {
     if (setup_->axes)
       if (const auto remark = coupled::radius_remark(inlet_radius(setup_->problem.mesh), scene_))
         warnings.push_back(*remark);
-    const physics::Tether& tether = setup_->problem.tether;
-    const bool may_ripple = tether.traction != radial::TetherTraction::normal || tether.stiffness == 0;
-    if (may_ripple && !setup_->axes)
+    if (stability::may_ripple(scene_) && !setup_->axes)
       if (const auto warning = stability::warning(scene_, setup_->expected_pressure))
         warnings.push_back(*warning);
     return warnings;

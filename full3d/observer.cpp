@@ -104,8 +104,8 @@ observables::Sample Observer::sample(double time, std::span<const double> y) con
     sample.pressure = problem.lumen_pressure(time);
   } else {
     const coupled::Stage stage{time, 0, {}};
-    sample.inflow = 0.0 - assembler_.flow(stage, y, Boundary::inlet);  // at rest 0, not -0
-    sample.outflow = assembler_.flow(stage, y, Boundary::outlet);
+    sample.inflow = 0.0 - assembler_.flow(stage, y, Boundary::inlet).net;  // at rest 0, not -0
+    sample.outflow = assembler_.flow(stage, y, Boundary::outlet).net;
     sample.pressure = section_pressure_(y);
     if (const auto entry = assembler_.layout().outlet_pressure) sample.outlet_pressure = y[*entry];
   }

@@ -103,10 +103,6 @@ double parabola_flux(const Problem& problem, double radius) {
 void set_inlet(const Scene& scene, Setup& setup) {
   Problem& problem = setup.problem;
   const Setup* const here = &setup;
-  // Blood that a pressure drives in may come with any profile, and brings energy for what disturbs it:
-  // without this profiles that vary around the section, which two dimensions know nothing of, grow without
-  // bound.
-  problem.inlet.backflow = 0.5;
   if (!coupled::needs_profile(scene, setup, problem.inlet)) {
     if (end_axes(setup).inlet < 0)
       throw InvalidInput(
@@ -131,6 +127,16 @@ void set_inlet(const Scene& scene, Setup& setup) {
     if (std::abs(place[2]) > 1e-9 * radius) return {};
     return {0, 0, here->inlet_value(time) * peak * parabola(place, radius)};
   };
+}
+
+coupled::Tube tube_of(const Scene& scene, const Setup& setup) {
+  const VesselShape& shape = setup.shape;
+  return {shape.radius, shape.thickness, shape.length, scene.text("geometry.ends") == "clamped",
+          [&shape, &mesh = setup.problem.mesh](int node) -> coupled::Tube::Place {
+            const VesselShape::Local at = shape.local(mesh.points[node]);
+            const auto axes = shape.axes(std::atan2(at.y, at.x), at.s);
+            return {at.s, std::hypot(at.x, at.y), cross(axes.circumferential, axes.axial), axes.axial};
+          }};
 }
 
 /// The mesh of geometry.file, with blood if it is wanted and there.
@@ -196,6 +202,7 @@ std::unique_ptr<Setup> setup_of(const Scene& scene, const Resolution& resolution
       return here->shape.axes(place);
     };
     for (auto& ring : rings) ring = radial::ring_model(scene, {});
+    setup->tube = tube_of(scene, *setup);
   }
   const bool with_blood = problem.mesh.has(Part::blood);
   coupled::set_conditions(scene, *setup, problem);
@@ -213,7 +220,7 @@ std::unique_ptr<Setup> setup_of(const Scene& scene, const Resolution& resolution
     problem.lumen_pressure = [here](double time) { return here->inlet_value(time); };
   }
   coupled::estimate_sizes(scene, std::move(rings[1]), *setup);
-  coupled::set_steady_pressure(problem, with_blood, *setup);
+  coupled::set_steady_state(problem, with_blood, *setup);
   return setup;
 }
 

@@ -39,7 +39,7 @@ struct Note {
   }
 };
 
-using StageNumbers = std::array<double, 2 + coupled::boundaries>;
+using StageNumbers = std::array<double, 3 + coupled::boundaries>;
 
 class TeamAnnouncer final : public Announcer {
  public:
@@ -61,8 +61,8 @@ class TeamAnnouncer final : public Announcer {
   void announce(Order order, const LoadedStage& at, std::span<const double> y) {
     const bool with_history = !at.stage.history.empty(), with_mesh = !at.stage.mesh.empty();
     Note{order, problem_, with_history ? 1 : 0, with_mesh ? 1 : 0}.broadcast(ranks_);
-    StageNumbers numbers{at.stage.time, at.stage.coefficient};
-    std::copy(at.pressure.begin(), at.pressure.end(), numbers.begin() + 2);
+    StageNumbers numbers{at.stage.time, at.stage.coefficient, at.stage.wall_pressure_bound};
+    std::copy(at.pressure.begin(), at.pressure.end(), numbers.begin() + 3);
     ranks_.broadcast(numbers);
     // A broadcast does not change what its root sends.
     const auto send = [&](std::span<const double> values) {
@@ -106,12 +106,13 @@ struct Served {
     if (note.with_mesh != 0)
       for (auto* part : {&mesh, &mesh_rate}) ranks.broadcast(*part);
     LoadedStage at{{numbers[0], numbers[1], {}}, {}};
+    at.stage.wall_pressure_bound = numbers[2];
     if (note.with_history != 0) at.stage.history = history;
     if (note.with_mesh != 0) {
       at.stage.mesh = mesh;
       at.stage.mesh_rate = mesh_rate;
     }
-    std::copy(numbers.begin() + 2, numbers.end(), at.pressure.begin());
+    std::copy(numbers.begin() + 3, numbers.end(), at.pressure.begin());
     return at;
   }
 

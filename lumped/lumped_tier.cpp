@@ -96,7 +96,8 @@ class LumpedRun final : public TierRun {
                          {"wall_points", observables::wall_points}};
     record.unknowns = network_.unknowns();
     const scene::Unused of_meshes{
-        {"geometry.ends", "inlet.profile", "mesh.", "outlet.backflow", "solver.", "time.scheme", "time.step"},
+        {"geometry.ends", "inlet.profile", "inlet.pressure_kind", "mesh.", "outlet.backflow", "solver.",
+         "time.scheme", "time.step"},
         "the tier is lumped, without ends, cells and sections, and chooses its steps"};
     warnings_ = scene::remarks_on(scene_, {&of_meshes, 1});
     record.remarks = scene_.remarks();

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "core/coupled/layout.hpp"
+#include "core/coupled/vessel.hpp"
 
 namespace tunica::coupled {
 
@@ -19,6 +21,8 @@ struct Stage {
   /// Displacement that the mesh in the blood has off the wall, and its rate, where they are given and not
   /// those of the state; entries as in y.
   std::span<const double> mesh = {}, mesh_rate = {};
+  /// Greatest wall pressure that the derivative knows, dyn/cm2 (kernel::WallParameters).
+  double wall_pressure_bound = std::numeric_limits<double>::infinity();
 };
 
 inline double rate(const Stage& stage, std::span<const double> y, std::size_t entry) {
@@ -30,6 +34,15 @@ inline double rate(const Stage& stage, std::span<const double> y, std::size_t en
 struct LeastJacobian {
   double value = 1;
   int cell = -1;
+};
+
+/// Flow out through an opening, cm3/s, and the part of it that leaves where blood goes outwards.
+struct Throughflow {
+  double net = 0, leaving = 0;
+  void add(double flow, double outwards) {
+    net += flow;
+    leaving += outwards;
+  }
 };
 
 /// The derivative of a residual at a state, and solutions with it.
@@ -70,6 +83,9 @@ class Equations {
   /// The derivative is exact, by duals, the motion of the mesh included where it is unknown. The equations
   /// must outlive it.
   virtual std::unique_ptr<TangentSolver> tangent_solver() const = 0;
+
+  /// Through a boundary of the blood at a complete state; nothing without blood.
+  virtual Throughflow flow(const Stage& stage, std::span<const double> y, Boundary boundary) const = 0;
 
   virtual bool has_wall() const = 0;
   virtual bool has_blood() const = 0;

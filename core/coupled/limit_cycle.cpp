@@ -28,8 +28,8 @@ class Range {
   /// Weights of what a vessel remembers from period to period: displacement of the wall (of a rigid pipe,
   /// velocity of the blood) and charge of the outlet's compliance. All else follows within a period. They
   /// are reciprocals of the greatest range in a period, of that field and of the pressure at the outlet, or
-  /// of a thousandth of the size of what hardly changes.
-  Eigen::VectorXd weights(const Equations& equations) const {
+  /// of a thousandth of the size, or of that to be expected, of what hardly changes.
+  Eigen::VectorXd weights(const Equations& equations, const Newton::Sizes& expected) const {
     const Layout& layout = equations.layout();
     const bool moves = equations.has_wall();
     std::vector<std::size_t> field;
@@ -40,17 +40,18 @@ class Range {
       if (moves ? is_wall : is_velocity) field.push_back(e);
     }
     Eigen::VectorXd weights = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(least_.size()));
-    const double of_field = reciprocal(field);
+    const double of_field = reciprocal(field, moves ? expected.displacement : expected.velocity);
     for (const std::size_t e : field) weights[static_cast<Eigen::Index>(e)] = of_field;
     if (layout.windkessel_pressure)
-      weights[static_cast<Eigen::Index>(*layout.windkessel_pressure)] = reciprocal({*layout.outlet_pressure});
+      weights[static_cast<Eigen::Index>(*layout.windkessel_pressure)] =
+          reciprocal({*layout.outlet_pressure}, expected.pressure);
     return weights;
   }
 
  private:
-  double reciprocal(const std::vector<std::size_t>& entries) const {
+  double reciprocal(const std::vector<std::size_t>& entries, double expected) const {
     constexpr double hardly = 1e-3;
-    double range = 0;
+    double range = hardly * expected;
     for (const std::size_t e : entries)
       range = std::max(
           {range, greatest_[e] - least_[e], hardly * std::abs(least_[e]), hardly * std::abs(greatest_[e])});
@@ -93,7 +94,7 @@ LimitCycle limit_cycle(Simulation& simulation, std::vector<double> guess, double
     }
     rates = simulation.rates();
     const Vector image = Eigen::Map<const Vector>(simulation.state().data(), size);
-    const Vector weights = range.weights(simulation.equations());
+    const Vector weights = range.weights(simulation.equations(), simulation.expected_sizes());
     ++report.periods;
     images.push_back(image);
     differences.emplace_back(image - x);

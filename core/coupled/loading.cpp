@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/coupled/loading.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -41,7 +42,10 @@ bool needs_profile(const Scene& scene, const Loading& loading, InletCondition& i
   inlet.kind = loading.inlet.is_pressure                  ? InletKind::pressure
                : scene.text("inlet.profile") == "natural" ? InletKind::flow
                                                           : InletKind::prescribed;
-  if (inlet.kind != InletKind::prescribed) return false;
+  if (inlet.kind != InletKind::prescribed) {
+    if (scene.text("inlet.pressure_kind") == "total") inlet.backflow = physics::energy_of_backflow;
+    return false;
+  }
   if (scene.text("geometry.ends") == "sliding")
     throw InvalidInput(
         "inlet.profile = \"parabolic\" prescribes velocities on a section of fixed radius, which "
@@ -78,21 +82,25 @@ std::unique_ptr<const radial::RingModel> ring_of(const Scene& scene, double inne
 void estimate_sizes(const Scene& scene, std::unique_ptr<const radial::RingModel> ring, Loading& loading) {
   const double inlet = std::abs(loading.inlet_scale) * loading.inlet.greatest_shape();
   const double area = std::numbers::pi * loading.lumen_radius * loading.lumen_radius;
+  // Where hardly anything loads the vessel, what moves less than this is at rest: the last digits of zero
+  // have no accuracy that could be asked of them. A ten-thousandth of a mmHg, a micrometre a second.
+  constexpr double still_pressure = 0.1, still_velocity = 1e-4, still_displacement = 1e-6;
+  loading.expected = {still_displacement * loading.lumen_radius, still_velocity, still_pressure};
   if (loading.inlet.is_pressure) {
     loading.expected_pressure = inlet;
   } else {
     double resistance = scene.number("outlet.resistance");
     if (scene.text("outlet.kind") == "rcr") resistance += scene.number("outlet.proximal_resistance");
     loading.expected_pressure = std::abs(scene.number("outlet.pressure")) + resistance * inlet;
-    loading.expected.velocity = 2 * inlet / area;
+    loading.expected.velocity = std::max(still_velocity, 2 * inlet / area);
   }
-  loading.expected.pressure = loading.expected_pressure;
+  loading.expected.pressure = std::max(still_pressure, loading.expected_pressure);
   if (!ring || loading.expected_pressure <= 0) return;
   // A quarter of the pressure is carried even by walls that give way at the whole of it.
   try {
     const radial::WallCurve curve(std::move(ring), {0.0});
-    loading.expected.displacement =
-        (curve.stretch_at(0.25 * loading.expected_pressure) - 1) * loading.lumen_radius;
+    const double opening = (curve.stretch_at(0.25 * loading.expected_pressure) - 1) * loading.lumen_radius;
+    loading.expected.displacement = std::max(loading.expected.displacement, opening);
   } catch (const SolverFailure&) {
     // The sizes that the run sees will do.
   }

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include "core/coupled/conditions.hpp"
 #include "core/coupled/newton.hpp"
@@ -11,6 +13,19 @@
 #include "core/scene/scene.hpp"
 
 namespace tunica::coupled {
+
+/// A straight or bent vessel of one circular section.
+struct Tube {
+  /// A node in the unloaded vessel: along the centreline and from it, cm, and these directions in the
+  /// components that the vessel's vectors have.
+  struct Place {
+    double along, radius;
+    std::array<double, 3> outward, onward;
+  };
+  double radius = 0, thickness = 0, length = 0;  ///< of lumen and wall, cm; no thickness of a rigid pipe
+  bool ends_are_held = false;
+  std::function<Place(int node)> place;
+};
 
 /// What loads the vessel of a scene, and the sizes of what is to come of it. Stays where it was made: the
 /// functions of the conditions refer to it.
@@ -28,6 +43,9 @@ struct Loading {
   /// Pressure in the lumen at mid-length in the steady state under the full loads of a time, as far as it is
   /// known beforehand, dyn/cm2.
   std::function<double(double time)> steady_pressure;
+  /// Flow through the vessel then, cm3/s.
+  std::function<double(double time)> steady_flow;
+  std::optional<Tube> tube;  ///< none where the vessel has another shape
 
   Loading() = default;
   Loading(const Loading&) = delete;
@@ -65,15 +83,21 @@ void estimate_sizes(const Scene& scene, std::unique_ptr<const radial::RingModel>
 template <int dimension>
 void set_conditions(const Scene& scene, const Loading& loading, Conditions<dimension>& conditions);
 
-/// Sets loading.steady_pressure. Keeps a reference to the conditions.
+/// Sets loading.steady_pressure and steady_flow. Keeps a reference to the conditions.
 template <int dimension>
-void set_steady_pressure(const Conditions<dimension>& conditions, bool with_blood, Loading& loading) {
+void set_steady_state(const Conditions<dimension>& conditions, bool with_blood, Loading& loading) {
   const Loading* const here = &loading;
   loading.steady_pressure = [&conditions, here, with_blood](double time) {
     if (!with_blood) return conditions.lumen_pressure(time);
     if (conditions.inlet.kind == InletKind::pressure) return conditions.inlet.value(time);
     const OutletCondition& outlet = conditions.outlet;
     return outlet.pressure(time) + (outlet.resistance + outlet.proximal_resistance) * here->inlet_value(time);
+  };
+  loading.steady_flow = [&conditions, here](double time) {
+    if (conditions.inlet.kind != InletKind::pressure) return here->inlet_value(time);
+    const OutletCondition& outlet = conditions.outlet;
+    const double resistance = outlet.resistance + outlet.proximal_resistance;
+    return resistance > 0 ? (conditions.inlet.value(time) - outlet.pressure(time)) / resistance : 0.0;
   };
 }
 

@@ -236,7 +236,7 @@ bool Newton::damped_step(const Stage& stage, std::span<double> y, const NewtonOp
       converged = true;
       return true;
     }
-    if (next <= (1 - factor / 4) * size || size <= options.tolerance) return true;
+    if (next <= std::max(1 - factor / 4, options.growth) * size || size <= options.tolerance) return true;
   }
   report.failure =
       fit ? "no step towards a solution was found" : fmt::format("every step towards a solution {}", flaw());

@@ -16,6 +16,9 @@ struct NewtonOptions {
   /// field.
   double tolerance = 1e-8;
   int most_iterations = 60;
+  /// A damped step may enlarge the correction that is left by this factor instead of diminishing it: for
+  /// guesses whose first errors are of a kind that Newton's method trades for others.
+  double growth = 0;
 };
 
 struct NewtonReport {

@@ -63,6 +63,7 @@ class Simulation {
   bool at_milestone() const;
 
   const Equations& equations() const { return equations_; }
+  const Newton::Sizes& expected_sizes() const { return options_.scales; }
   const Layout& layout() const { return equations_.layout(); }
   Newton& newton() { return newton_; }
   double factor_entries() const { return newton_.factor_entries(); }

@@ -5,62 +5,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/coupled/failure.hpp"
+#include "core/coupled/tube_state.hpp"
 #include "core/error.hpp"
-#include "core/radial/wall_curve.hpp"
 #include "core/units.hpp"
 
 namespace tunica::coupled {
 
 namespace {
-
-/// Displacement of the lumen, over its radius, that a ring of the wall at mid-length has under a share of the
-/// load: what states under different loads are compared by, since it grows more evenly than the load. The
-/// share itself where there is no ring or it does not bear the load.
-class RingMeasure {
- public:
-  /// For loads from none to that of `pressure`.
-  RingMeasure(const Loading& loading, double pressure) : loading_(loading), pressure_(pressure) {
-    if (!loading.ring || pressure == 0) return;
-    try {
-      double stretch = pressure > 0 ? 1.05 : 0.95;
-      while (!exceeds(stretch, pressure)) {
-        stretch = 1 + (stretch - 1) * 1.6;
-        if (stretch > radial::WallCurve::greatest_stretch || stretch < radial::WallCurve::least_stretch)
-          return;
-      }
-      most_ = stretch - 1;
-    } catch (const SolverFailure&) {
-      // Loads are the measure.
-    }
-  }
-
-  double at(double load) const {
-    if (most_ == 0) return load;
-    constexpr double precision = 1e-5;  // a load's least step changes it by more
-    double low = 0, high = most_;
-    try {
-      while (std::abs(high - low) > precision * std::abs(high)) {
-        const double middle = 0.5 * (low + high);
-        (exceeds(1 + middle, load * pressure_) ? high : low) = middle;
-      }
-    } catch (const SolverFailure&) {
-      return load * most_;
-    }
-    return 0.5 * (low + high);
-  }
-
- private:
-  bool exceeds(double stretch, double pressure) const {
-    const double p = loading_.ring->respond(stretch, {}, false).pressure;
-    return pressure_ > 0 ? p > pressure : p < pressure;
-  }
-
-  const Loading& loading_;
-  double pressure_;
-  double most_ = 0;  ///< bound of the displacements over the radius; 0 where loads are the measure
-};
 
 /// States found so far and their measures, for a guess of the next by the polynomial through the last of
 /// them.
@@ -96,27 +50,64 @@ class Past {
   std::vector<std::vector<double>> states_;
 };
 
+/// The mean pressure within a wall is less than the lumen's. A derivative that knows half of that leads there
+/// from farther off than an exact one, and still in few iterations.
+constexpr double half = 0.5;
+
+/// How a state is let come to rest.
+struct Patience {
+  int iterations;         ///< in all
+  double pressure_share;  ///< of the lumen's that the derivative's wall pressures may have
+};
+/// A wall that gives way moves on for ever; one that comes to rest takes a third of these.
+constexpr Patience to_the_end{600, std::numeric_limits<double>::infinity()};
+/// From an estimate it is soon there or not at all.
+constexpr Patience from_estimate{150, half};
+
 /// Steady states on one mesh under the loads that a setup has at the time.
 class Solver {
  public:
   Solver(const Loading& loading, const Equations& equations, Newton& newton, double time, double tolerance)
-      : loading_(loading), equations_(equations), newton_(newton), time_(time), tolerance_(tolerance) {}
+      : loading_(loading),
+        equations_(equations),
+        newton_(newton),
+        time_(time),
+        tolerance_(tolerance),
+        pressure_(loading.steady_pressure(time)) {}
 
   const Equations& equations() const { return equations_; }
   Newton& newton() { return newton_; }
+  double time() const { return time_; }
 
+  /// From a state near the one looked for.
   NewtonReport solve(std::vector<double>& state) {
     return newton_.solve({time_, 0, {}}, state, {tolerance_, 60});
+  }
+
+  /// From a state that is roughly like it.
+  NewtonReport approach(std::vector<double>& state) {
+    // A guess that keeps the wall's volume but is not where it should be first gets worse in the small cells
+    // at the ends. Near the state, where pressures in their corners are beyond all bounds, Newton's own
+    // derivative is the better one.
+    constexpr double near = 0.03, growth = 3;
+    newton_.forget();
+    const Newton::Sizes sizes = newton_.sizes();
+    const NewtonReport begun =
+        newton_.solve(stage(0, {}, half), state, {std::max(near, tolerance_), 60, growth});
+    // What is only roughly the state says nothing about the sizes of its fields.
+    newton_.set_sizes(sizes);
+    newton_.forget();
+    return begun.converged ? solve(state) : begun;
   }
 
   /// The steady state by backward Euler steps in time that grow until they are infinite, with the momentum of
   /// the wall taken out at each: for states from which Newton's method alone would not get there, such as a
   /// wall without stiffness at rest. `pressure` is what drives the wall. Reports the last step that was not
   /// solved when it is not reached.
-  NewtonReport relax(double pressure, const std::function<bool()>& interrupted, std::vector<double>& state) {
+  NewtonReport relax(double pressure, const std::function<bool()>& interrupted, std::vector<double>& state,
+                     const Patience& patience) {
     constexpr double largest = 1000, least = 1e-5;  // of the first coefficient
-    // A wall that gives way moves on for ever; one that comes to rest takes a third of these.
-    constexpr int most_in_all = 600, most_iterations = 25;
+    constexpr int most_iterations = 25;
     const Layout& layout = equations_.layout();
     std::vector<double> history(layout.size()), candidate;
     const double first = first_coefficient(pressure);
@@ -124,12 +115,14 @@ class Solver {
     newton_.forget();
     NewtonReport unsolved;
     unsolved.failure = "the state does not come to rest";
-    for (int iterations = 0; iterations < most_in_all && coefficient <= largest * first && !interrupted();) {
+    for (int iterations = 0;
+         iterations < patience.iterations && coefficient <= largest * first && !interrupted();) {
       for (std::size_t e = 0; e < history.size(); ++e) history[e] = -coefficient * state[e];
       for (const int node : layout.wall_nodes())
         for (int c = 0; c < layout.components(); ++c) history[layout.velocity(node, c)] = 0;
       candidate = state;
-      auto report = newton_.solve({time_, coefficient, history}, candidate, {tolerance_, most_iterations});
+      auto report = newton_.solve(stage(coefficient, history, patience.pressure_share), candidate,
+                                  {tolerance_, most_iterations});
       iterations += std::max(1, report.iterations);
       if (report.converged) {
         state = candidate;
@@ -147,6 +140,13 @@ class Solver {
   }
 
  private:
+  /// With a derivative that knows wall pressures up to a share of the lumen's.
+  Stage stage(double coefficient, std::span<const double> history, double pressure_share) const {
+    Stage at{time_, coefficient, history};
+    if (pressure_ != 0) at.wall_pressure_bound = pressure_share * std::abs(pressure_);
+    return at;
+  }
+
   /// Reciprocal of a step in which tissue that resists with the pressure that drives it would move by a third
   /// of its thickness: its inertia is then about as great as its stiffness, 1/s.
   double first_coefficient(double pressure) const {
@@ -158,6 +158,7 @@ class Solver {
   const Equations& equations_;
   Newton& newton_;
   double time_, tolerance_;
+  double pressure_;  ///< in the lumen, dyn/cm2
 };
 
 /// From rest in steps of the load.
@@ -184,7 +185,7 @@ std::vector<double> climb(Loading& loading, Solver& solver, double pressure,
     if (!solved.converged) {
       if (!past.is_first()) ++report.guesses_missed;
       state = past.last();
-      solved = solver.relax(pressure, interrupted, state);
+      solved = solver.relax(pressure, interrupted, state, to_the_end);
     }
     if (solved.converged) {
       past.add(size, state);
@@ -214,6 +215,28 @@ std::vector<double> climb(Loading& loading, Solver& solver, double pressure,
   return reached < 1 ? std::vector<double>{} : past.last();
 }
 
+/// From what is known of tubes, or else from rest.
+std::vector<double> begin(Loading& loading, Solver& solver, double pressure,
+                          const std::function<bool()>& interrupted, StaticReport& report) {
+  const auto guess = tube_state(loading, solver.equations(), solver.time());
+  if (!guess.empty()) {
+    auto state = guess;
+    bool found = solver.approach(state).converged;
+    if (!found) {
+      ++report.guesses_missed;
+      state = guess;
+      found = solver.relax(pressure, interrupted, state, from_estimate).converged;
+    }
+    if (interrupted()) return {};
+    if (found) {
+      ++report.load_steps;
+      return state;
+    }
+    solver.newton().forget();
+  }
+  return climb(loading, solver, pressure, interrupted, report);
+}
+
 /// From the state on a coarser mesh; empty when that does not lead there.
 std::vector<double> refine(const CoarserMeshes& meshes, const Equations& coarser,
                            const std::vector<double>& coarse_state, Solver& solver, double pressure,
@@ -223,7 +246,7 @@ std::vector<double> refine(const CoarserMeshes& meshes, const Equations& coarser
   if (solver.solve(state).converged) return state;
   ++report.guesses_missed;
   state = guess;
-  if (!solver.relax(pressure, interrupted, state).converged) state.clear();
+  if (!solver.relax(pressure, interrupted, state, to_the_end).converged) state.clear();
   return state;
 }
 
@@ -241,10 +264,11 @@ std::vector<double> static_state(Loading& loading, const Equations& equations, c
   for (int k = 0; k < coarser.count(); ++k) {
     auto next = coarser.make(k);
     Newton solving(next->equations());
+    solving.set_sizes(newton.sizes());
     Solver solver(next->loading(), next->equations(), solving, time, coarse_tolerance);
     try {
       state = mesh ? refine(coarser, mesh->equations(), state, solver, pressure, interrupted, report)
-                   : climb(next->loading(), solver, pressure, interrupted, report);
+                   : begin(next->loading(), solver, pressure, interrupted, report);
     } catch (const SolverFailure&) {
       report.coarse += solving.counts();
       throw;
@@ -257,7 +281,7 @@ std::vector<double> static_state(Loading& loading, const Equations& equations, c
   Solver solver(loading, equations, newton, time, tolerance);
   if (!state.empty())
     state = refine(coarser, mesh->equations(), state, solver, pressure, interrupted, report);
-  if (state.empty()) state = climb(loading, solver, pressure, interrupted, report);
+  if (state.empty()) state = begin(loading, solver, pressure, interrupted, report);
   loading.load = 1;
   return state;
 }

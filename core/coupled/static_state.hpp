@@ -39,7 +39,8 @@ class CoarserMeshes {
 
 /// The steady state under the loads of a time: wall in equilibrium, and blood in steady flow or at rest.
 ///
-/// On the coarsest mesh loads grow from nothing in steps of about 15 mmHg. Each begins from the polynomial
+/// On the coarsest mesh Newton's method begins from what is known of tubes (tube_state). Where that does not
+/// lead to the state, loads grow from nothing in steps of about 15 mmHg. Each begins from the polynomial
 /// through the states before, as a function of the lumen's displacement of a ring at mid-length; the first,
 /// and one that is not solved from there, is approached by steps in time. A load that is not solved at all is
 /// halved. The state under the whole load is then the guess on the next mesh, and so on to the finest, that

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/coupled/failure.hpp"
+#include "core/coupled/inlet_watch.hpp"
 #include "core/coupled/limit_cycle.hpp"
 #include "core/coupled/simulation.hpp"
 #include "core/error.hpp"
@@ -103,6 +104,8 @@ class VesselRun final : public TierRun {
     log_.store(result_, end_, result_.record.converged && !is_static_);
     count();
     judge_steps();
+    if (auto finding = inlet_watch_.finding(); !finding.empty())
+      result_.record.findings.push_back(std::move(finding));
     vessel_->conclude(result_.record);
     result_.record.solve_seconds = seconds();
     result_.record.median_step_seconds = median(step_seconds_);
@@ -189,7 +192,10 @@ class VesselRun final : public TierRun {
   }
 
   void sample(double time, std::span<const double> y, bool row, bool profile, bool field) {
-    if (row) observer_.append_observables(time, y, result_.observables);
+    if (row) {
+      observer_.append_observables(time, y, result_.observables);
+      inlet_watch_.look(time, vessel_->equations().flow({time, 0, {}}, y, Boundary::inlet));
+    }
     if (profile) {
       observer_.append_profile(time, y, result_.profiles);
       observer_.append_along(time, y, result_.along);
@@ -366,6 +372,7 @@ class VesselRun final : public TierRun {
                    {"last_beat_begun", last_beat_begun()},
                    {"event_values", pack(event_values_)},
                    {"events", log_.save()},
+                   {"inlet", pack(inlet_watch_.save())},
                    {"step_seconds", pack(step_seconds_)},
                    {"counts",
                     {result_.record.newton_iterations, result_.record.linear_iterations,
@@ -390,6 +397,7 @@ class VesselRun final : public TierRun {
       for (auto& stop : stops_) stop.begins_last_beat = false;
     event_values_ = unpack(saved.state.at("event_values"));
     log_.restore(saved.state.at("events"), result_.events);
+    inlet_watch_.restore(unpack(saved.state.at("inlet")));
     step_seconds_ = unpack(saved.state.at("step_seconds"));
     const auto counts = saved.state.at("counts").get<std::vector<long>>();
     before_ = {counts.at(0), counts.at(1), counts.at(2)};
@@ -411,6 +419,7 @@ class VesselRun final : public TierRun {
   Simulation simulation_;
   const Observing& observer_;
   observables::EventLog log_;
+  InletWatch inlet_watch_;
   StaticReport static_;
   LimitCycleReport cycle_;
   struct {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
+
 #include "core/kernel/contract.hpp"
 #include "core/physics/surface.hpp"
 
@@ -40,7 +42,8 @@ struct SurfaceTerms {
 template <class Frame, int Width>
 struct SideResidual {
   NodalVector<Frame, Width> momentum;
-  double flow = 0;
+  double flow = 0;     ///< out through the side
+  double leaving = 0;  ///< of it, where it goes outwards
 };
 
 template <class Frame, int Width>
@@ -68,6 +71,7 @@ void add_side_residual(const Terms& terms, const SidePoint<Frame, Width>& at,
   const SurfaceTerms<double> values = terms(detail::surface_state(at, nodes), at.normal);
   test_vector(at.weight, values.load, Tensor<double>{}, at.shapes, residual.momentum);
   residual.flow += at.weight * values.flow;
+  residual.leaving += at.weight * std::max(values.flow, 0.0);
 }
 
 template <class Frame, int Width, class Terms>

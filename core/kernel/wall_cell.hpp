@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -34,6 +35,10 @@ struct WallParameters {
   double rate_coefficient = 0;  ///< d(rate)/d(unknown) of the time scheme, 1/s
   /// Terms of the wall pressure that are used, 0 for the law's own stress at each point.
   int pressure_terms = 0;
+  /// The derivative takes the wall pressure for no greater than this, dyn/cm2. Far from a solution that of an
+  /// iterate is the bulk modulus times an error of volume, and would make the derivative indefinite; the
+  /// residual has it as it is.
+  double pressure_bound = std::numeric_limits<double>::infinity();
 };
 
 template <class Frame, int Width>
@@ -151,14 +156,16 @@ void add_wall_tangent(const WallParameters& parameters, const std::vector<WallPo
   std::optional<WallPressure<Frame>> pressure;
   if (mixed) pressure.emplace(parameters, points, h);
   const double projected_share = 1 - physics::pointwise_volumetric_share(*parameters.law);
+  const auto bounded = [&](const WallPoint<Frame, Width>& at) {
+    return std::clamp(pressure->at(at.pressure), -parameters.pressure_bound, parameters.pressure_bound);
+  };
   // Derivatives of the volume and of the projected pressure's load, by nodal displacement.
   NodalVector<Frame, Width> volume[most], load[most];
   for (std::size_t q = 0; q < points.size(); ++q) {
     const auto& at = points[q];
     const auto seeded = seed_gradient<Frame, g>(h[q], 0);
-    const Tensor<D> stress =
-        mixed ? physics::mixed_wall_stress(*parameters.law, seeded, at.axes, pressure->at(at.pressure))
-              : wall::piola(*parameters.law, seeded, at.axes);
+    const Tensor<D> stress = mixed ? physics::mixed_wall_stress(*parameters.law, seeded, at.axes, bounded(at))
+                                   : wall::piola(*parameters.law, seeded, at.axes);
     const auto derivative = [&](int out, int in) {
       if (out < n) return out == in ? mass : 0.0;
       return in < n ? 0.0 : stress.entries[Frame::gradient[out - n].entry].derivative[in - n];

@@ -27,9 +27,13 @@ S flow_density(const Vector<S>& velocity, const Vector<S>& mesh_velocity, const 
   return dot(relative, area);
 }
 
+/// beta of backflow_load that takes out just the energy that blood brings in.
+inline constexpr double energy_of_backflow = 0.5;
+
 /// Resistance of an open boundary against blood that flows in through it, -beta rho min((v - w).n, 0) v da:
 /// takes out the energy that such blood would bring in (Bazilevs et al., Comput. Methods Appl. Mech. Eng.
-/// 198:3534, 2009). beta = 1/2 takes out just that.
+/// 198:3534, 2009). beta = 1/2 takes out just that: the traction under a pressure p is then
+/// -(p - rho v^2/2) n where blood comes in along n, so that p is its total pressure.
 template <class S>
 Vector<S> backflow_load(double beta, double density, const S& flow, const Vector<S>& velocity) {
   if (plain(flow) >= 0) return {S(0.0), S(0.0), S(0.0)};

@@ -204,6 +204,12 @@ std::vector<Parameter> declare() {
                        "How a flow is imposed: parabolic prescribes the velocity (of developed flow where "
                        "the inlet is no circle), natural an unknown uniform pressure that "
                        "drives the flow. The 0D tier knows no profile."));
+  all.push_back(choice(
+      "inlet.pressure_kind", "total", {"total", "static"},
+      "What is uniform over an inlet through which a pressure drives the blood (natural profile, "
+      "pressures): the total pressure p + density v^2/2 of blood that comes in, as from a wide vessel, or "
+      "the static one, for which any profile of incoming blood is as good as another: such a flow may turn "
+      "back on the inlet (2D and 3D tiers)."));
 
   all.push_back(
       choice("outlet.kind", "resistance", {"resistance", "rcr"},

@@ -91,6 +91,10 @@ std::string describe(const Findings& findings, double thickness, double density,
 
 }  // namespace
 
+bool may_ripple(const Scene& scene) {
+  return scene.text("tether.traction") != "normal" || scene.number("tether.stiffness") == 0;
+}
+
 std::optional<std::string> warning(const Scene& scene, double greatest_pressure) {
   if (!(greatest_pressure > 0)) return {};
   const auto model = radial::ring_model(scene, {});

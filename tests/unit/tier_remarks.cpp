@@ -78,6 +78,8 @@ TEST(TierRemarks, AxisymNamesWhatItsModesLeaveOut) {
   EXPECT_EQ(
       remarks<AxisymTier>("cylinder.toml", with({"inlet.waveform=pressure", "inlet.profile=natural"}), false),
       Overrides{"inlet.profile is not used: a pressure drives the flow"});
+  EXPECT_EQ(remarks<AxisymTier>("cylinder.toml", with({"inlet.pressure_kind=static"}), false),
+            Overrides{"inlet.pressure_kind is not used: the velocity at the inlet is prescribed"});
   // The scene itself sets blood, outlet and beats.
   EXPECT_EQ(remarks<AxisymTier>("cylinder.toml", with({"time.mode=static", "time.ramp=0.1",
                                                        "inlet.waveform=pressure", "inlet.pressure=10 mmHg",
