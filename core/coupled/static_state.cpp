@@ -54,6 +54,15 @@ class Past {
 /// from farther off than an exact one, and still in few iterations.
 constexpr double half = 0.5;
 
+/// How a state is approached from a guess that keeps the wall's volume but is not where it should be, and so
+/// first gets worse in the small cells at the ends.
+struct Approach {
+  double pressure_share;  ///< of the lumen's that the derivative's wall pressures may have
+  double growth;          ///< NewtonOptions::growth
+};
+/// One that fails costs a fifth of what steps in time do, and another seldom fails with it.
+constexpr Approach approaches[] = {{half, 3}, {0.5 * half, 3}, {1.5 * half, 1.5}};
+
 /// How a state is let come to rest.
 struct Patience {
   int iterations;         ///< in all
@@ -85,15 +94,14 @@ class Solver {
   }
 
   /// From a state that is roughly like it.
-  NewtonReport approach(std::vector<double>& state) {
-    // A guess that keeps the wall's volume but is not where it should be first gets worse in the small cells
-    // at the ends. Near the state, where pressures in their corners are beyond all bounds, Newton's own
+  NewtonReport approach(std::vector<double>& state, const Approach& how) {
+    // Near the state, where pressures in the corners of the wall's ends are beyond all bounds, Newton's own
     // derivative is the better one.
-    constexpr double near = 0.03, growth = 3;
+    constexpr double near = 0.03;
     newton_.forget();
     const Newton::Sizes sizes = newton_.sizes();
     const NewtonReport begun =
-        newton_.solve(stage(0, {}, half), state, {std::max(near, tolerance_), 60, growth});
+        newton_.solve(stage(0, {}, how.pressure_share), state, {std::max(near, tolerance_), 60, how.growth});
     // What is only roughly the state says nothing about the sizes of its fields.
     newton_.set_sizes(sizes);
     newton_.forget();
@@ -220,9 +228,14 @@ std::vector<double> begin(Loading& loading, Solver& solver, double pressure,
                           const std::function<bool()>& interrupted, StaticReport& report) {
   const auto guess = tube_state(loading, solver.equations(), solver.time());
   if (!guess.empty()) {
-    auto state = guess;
-    bool found = solver.approach(state).converged;
-    if (!found) {
+    std::vector<double> state;
+    bool found = false;
+    for (const Approach& how : approaches) {
+      if (found || interrupted()) break;
+      state = guess;
+      found = solver.approach(state, how).converged;
+    }
+    if (!found && !interrupted()) {
       ++report.guesses_missed;
       state = guess;
       found = solver.relax(pressure, interrupted, state, from_estimate).converged;
@@ -244,6 +257,9 @@ std::vector<double> refine(const CoarserMeshes& meshes, const Equations& coarser
   const auto guess = meshes.prolong(coarser, coarse_state, solver.equations());
   auto state = guess;
   if (solver.solve(state).converged) return state;
+  // Corrections that grow could lead to another state than the one prolonged.
+  state = guess;
+  if (solver.approach(state, {half, 0}).converged) return state;
   ++report.guesses_missed;
   state = guess;
   if (!solver.relax(pressure, interrupted, state, to_the_end).converged) state.clear();
