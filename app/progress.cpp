@@ -7,7 +7,8 @@
 
 namespace tunica {
 
-ProgressDisplay::ProgressDisplay(bool quiet) : quiet_(quiet), terminal_(::isatty(STDERR_FILENO) == 1) {}
+ProgressDisplay::ProgressDisplay(bool quiet, std::chrono::duration<double> between_lines)
+    : quiet_(quiet), terminal_(::isatty(STDERR_FILENO) == 1), between_lines_(between_lines) {}
 
 ProgressDisplay::~ProgressDisplay() {
   if (shown_ && terminal_) fmt::print(stderr, "\n");
@@ -41,9 +42,10 @@ void ProgressDisplay::show(const Progress& progress) {
     fmt::print(stderr, "\r\x1b[K{}", line);
     last_ = now;
     shown_ = true;
-  } else if (progress.beat != last_beat_) {
+  } else if (progress.beat != last_beat_ || now - last_ >= between_lines_) {
     spdlog::info(line);
     last_beat_ = progress.beat;
+    last_ = now;
   }
 }
 

@@ -7,11 +7,13 @@
 
 namespace tunica {
 
-/// Shows how a long run goes on: one line that is written over on a terminal, a plain line a beat in a
-/// log. A run that is over within half a second shows nothing.
+/// Shows how a long run goes on: one line that is written over on a terminal, in a log a plain
+/// line a beat and, within long ones, as often as `between_lines`. A run that is over within half a second
+/// shows nothing.
 class ProgressDisplay {
  public:
-  explicit ProgressDisplay(bool quiet);
+  explicit ProgressDisplay(bool quiet,
+                           std::chrono::duration<double> between_lines = std::chrono::seconds(15));
   ~ProgressDisplay();
   ProgressDisplay(const ProgressDisplay&) = delete;
   ProgressDisplay& operator=(const ProgressDisplay&) = delete;
@@ -21,6 +23,7 @@ class ProgressDisplay {
  private:
   using Clock = std::chrono::steady_clock;
   bool quiet_, terminal_;
+  std::chrono::duration<double> between_lines_;
   bool shown_ = false;
   int last_beat_ = -1;
   Clock::time_point start_ = Clock::now(), last_ = start_, beats_start_ = start_;

@@ -31,9 +31,11 @@ struct FreeMemory {
   void operator()(void* memory) const { CVodeFree(&memory); }
 };
 
-/// Steps that one call may take before it counts as stuck.
-constexpr long most_steps = 1'000'000;
-/// Absolute tolerance of an unknown over its scale, relative to the relative tolerance.
+/// After so many steps the caller is told, and unless they have brought this share of the time scale the
+/// integration counts as stuck.
+constexpr long steps_at_a_time = 1000;
+constexpr double least_share = 1e-5;
+/// Absolute tolerance of a sensitivity over its scale, relative to the relative tolerance.
 constexpr double absolute_share = 1e-2;
 
 }  // namespace
@@ -46,7 +48,7 @@ struct Integrator::Implementation {
 
   sundials::Context context;
   std::unique_ptr<void, FreeMemory> memory;
-  VectorHandle state, absolute;
+  VectorHandle state;
   N_Vector* sensitivities = nullptr;
   N_Vector* sensitivity_absolute = nullptr;
   MatrixHandle matrix;
@@ -86,6 +88,19 @@ struct Integrator::Implementation {
     });
   }
 
+  static int weights(N_Vector y, N_Vector weight, void* data) {
+    auto& self = *static_cast<Implementation*>(data);
+    double* w = N_VGetArrayPointer(weight);
+    try {
+      self.system.magnitudes(N_VGetArrayPointer(y), w);
+    } catch (const std::exception& error) {
+      self.complaint = error.what();
+      return -1;
+    }
+    for (int i = 0; i < self.system.unknowns; ++i) w[i] = 1 / (self.tolerance * w[i]);
+    return 0;
+  }
+
   static int events(double, N_Vector y, double* values, void* data) {
     auto& self = *static_cast<Implementation*>(data);
     self.system.event_values(N_VGetArrayPointer(y), values);
@@ -119,14 +134,11 @@ Integrator::Integrator(System system, std::vector<Sensitivity> sensitivities, do
   self.errors = errors;
   const int n = self.system.unknowns;
   self.state.reset(N_VNew_Serial(n, self.context));
-  self.absolute.reset(N_VNew_Serial(n, self.context));
   self.matrix.reset(SUNBandMatrix(n, self.system.bandwidth, self.system.bandwidth, self.context));
   self.solver.reset(SUNLinSol_Band(self.state.get(), self.matrix.get(), self.context));
   self.memory.reset(CVodeCreate(CV_BDF, self.context));
-  if (!self.state || !self.absolute || !self.matrix || !self.solver || !self.memory)
+  if (!self.state || !self.matrix || !self.solver || !self.memory)
     throw SolverFailure("CVODES could not be set up: out of memory");
-  for (int i = 0; i < n; ++i)
-    NV_Ith_S(self.absolute.get(), i) = absolute_share * tolerance * self.system.scales[i];
 }
 
 Integrator::~Integrator() = default;
@@ -145,9 +157,9 @@ void Integrator::start(double time, double end_time, const std::vector<double>& 
     self.check(CVodeInit(memory, &Implementation::rate, time, self.state.get()), "CVodeInit");
     self.check(CVodeSetUserData(memory, &self), "CVodeSetUserData");
     self.check(CVodeSetErrFile(memory, nullptr), "CVodeSetErrFile");
-    self.check(CVodeSVtolerances(memory, self.tolerance, self.absolute.get()), "CVodeSVtolerances");
+    self.check(CVodeWFtolerances(memory, &Implementation::weights), "CVodeWFtolerances");
     self.check(CVodeSetLinearSolver(memory, self.solver.get(), self.matrix.get()), "CVodeSetLinearSolver");
-    self.check(CVodeSetMaxNumSteps(memory, most_steps), "CVodeSetMaxNumSteps");
+    self.check(CVodeSetMaxNumSteps(memory, steps_at_a_time), "CVodeSetMaxNumSteps");
     // BDF above order 2 is unstable near the imaginary axis, where weakly damped oscillations lie: the
     // step would have to follow each of them.
     if (self.system.oscillates) self.check(CVodeSetMaxOrd(memory, 2), "CVodeSetMaxOrd");
@@ -191,7 +203,17 @@ std::vector<Crossing> Integrator::advance(double time) {
   auto& self = *implementation_;
   void* memory = self.memory.get();
   if (time <= self.now) return {};
-  const int code = CVode(memory, time, self.state.get(), &self.now, CV_NORMAL);
+  int code = CV_TOO_MUCH_WORK;
+  while (code == CV_TOO_MUCH_WORK) {
+    const double before = self.now;
+    code = CVode(memory, time, self.state.get(), &self.now, CV_NORMAL);
+    if (code != CV_TOO_MUCH_WORK) break;
+    if (self.system.progress) self.system.progress(self.now, statistics());
+    if (self.now - before < least_share * self.system.time_scale)
+      throw SolverFailure(fmt::format(
+          "{}{}the last {} steps have brought the integration only {:.2g} s farther", self.complaint,
+          self.complaint.empty() ? "" : "; ", steps_at_a_time, self.now - before));
+  }
   self.check(code, "CVode");
   if (self.count() > 0) {
     double at = self.now;

@@ -11,15 +11,26 @@ namespace tunica::lumped {
 /// Thrown by a right-hand side to end the integration at once, and passed on by Integrator::advance.
 struct Interrupted {};
 
+struct IntegratorStatistics {
+  long steps = 0;
+  long newton_iterations = 0;
+  long rejected_steps = 0;
+};
+
 /// A system of ordinary differential equations y' = f(t, y; theta) with a banded Jacobian.
 struct System {
   int unknowns = 0;
   int bandwidth = 0;
   bool oscillates = false;     ///< has weakly damped oscillations faster than what is of interest
-  std::vector<double> scales;  ///< magnitude of each unknown, for absolute tolerances
+  double time_scale = 1;       ///< s, that things of interest happen within
+  std::vector<double> scales;  ///< typical magnitude of each unknown
+  /// What the error of each unknown is relative to at y, all above 0.
+  std::function<void(const double* y, double* magnitudes)> magnitudes;
   std::function<void(double t, const double* y, double* rate)> rate;
   /// Derivative of f along dy plus, for k >= 0, along parameter k.
   std::function<void(double t, const double* y, const double* dy, int k, double* result)> rate_derivative;
+  /// Told now and then how far an integration has come.
+  std::function<void(double t, const IntegratorStatistics& so_far)> progress;
   /// Functions of y whose zeros are reported, with their number.
   int events = 0;
   std::function<void(const double* y, double* values)> event_values;
@@ -34,13 +45,7 @@ struct Crossing {
 /// A forward sensitivity that is carried along: s' = (df/dy) s + df/dtheta.
 struct Sensitivity {
   int parameter;  ///< theta; -1 for a derivative with respect to an initial value
-  double size;    ///< expected magnitude of s_i over scale_i, for absolute tolerances
-};
-
-struct IntegratorStatistics {
-  long steps = 0;
-  long newton_iterations = 0;
-  long rejected_steps = 0;
+  double size;    ///< expected magnitude of s_i over scale_i, for the absolute tolerance
 };
 
 /// Variable-order, variable-step BDF of CVODES with staggered forward sensitivities and root finding.
@@ -61,7 +66,8 @@ class Integrator {
              const std::vector<std::vector<double>>& sensitivities);
 
   /// Goes on to `time` or to the first crossing before it, whichever comes first; returns the
-  /// crossings met (empty: `time` was reached). Throws SolverFailure with the reason.
+  /// crossings met (empty: `time` was reached). Throws SolverFailure with the reason, also when steps have
+  /// become so short that they lead nowhere.
   std::vector<Crossing> advance(double time);
 
   double time() const;

@@ -14,9 +14,10 @@ struct LimitCycle {
   IntegratorStatistics statistics;
 };
 
-/// Solves Phi(y) = y by Newton's method, Phi being the state one period later. Its Jacobian M, the
-/// monodromy matrix, comes from forward sensitivities to the initial state, and the derivatives of the
-/// solution from (I - M) dy/dtheta = dPhi/dtheta.
+/// Solves Phi(y) = y, Phi being the state one period later, by periods from `guess` on that Anderson's
+/// acceleration combines, and the linear M dy/dtheta + dPhi/dtheta = dy/dtheta of the derivatives alike, with
+/// the forward sensitivities of a period as its map. Neither needs the matrix M = dPhi/dy: nearly all that an
+/// artery knows at the start of a period it has forgotten at its end.
 /// `parameters`: the sensitivities wanted. Throws SolverFailure when there is no convergence.
 LimitCycle find_limit_cycle(const System& system, const std::vector<double>& guess, double period,
                             const std::vector<Sensitivity>& parameters, double tolerance);

@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/observables/stops.hpp"
+#include "core/radial/limit_load.hpp"
 #include "core/scene/unused.hpp"
 #include "core/units.hpp"
 #include "lumped/integrator.hpp"
@@ -116,25 +117,45 @@ class LumpedRun final : public TierRun {
           "0D tier: the bend is not modelled, the torus is computed as a straight artery of its length");
   }
 
-  /// What the solver said, preceded by the physical reason where it is that the wall cannot carry the
-  /// pressure that the inflow asks for at the outlet's resistance.
+  /// What the solver said, preceded by the physical reason where there is one: that the wall cannot carry the
+  /// pressure that the inflow asks for at the outlet's resistance, or that it has been opened beyond what it
+  /// carries most at.
   std::string reason(const SolverFailure& failure) const {
-    if (network_.inlet().is_pressure) return failure.what();
-    const auto carried = network_.curve().greatest_pressure();
-    const double asked = scene_.number("outlet.pressure") + scene_.number("outlet.resistance") *
-                                                                network_.inlet_scale() *
-                                                                network_.inlet().shape_at(time_);
-    // At the end of the range that is computed the pressure may still rise well: then it says nothing
-    // about what the wall can carry.
-    constexpr double flat = 0.3;  // relative growth of pressure over that of the stretch
-    const auto& curve = network_.curve();
-    const bool gives_way = carried.stretch < 0.98 * radial::WallCurve::greatest_stretch ||
-                           curve.pressure_slope(carried.stretch) * carried.stretch < flat * carried.pressure;
-    if (asked <= carried.pressure || !gives_way) return failure.what();
-    return fmt::format(
-        "the wall has no equilibrium at {:.4g} mmHg, the pressure that the inflow asks for: it carries at "
-        "most {:.4g} mmHg, at lumen stretch {:.4g} ({})",
-        asked / mmhg, carried.pressure / mmhg, carried.stretch, failure.what());
+    constexpr double nearly = 0.98;
+    const auto& inlet = network_.inlet();
+    const bool is_periodic = phase_ == Phase::to_limit_cycle;
+    // On the limit cycle the mean flow passes the outlet, on the way there at every moment what comes in
+    // but for what the compliances take.
+    const double flow = network_.inlet_scale() * (is_periodic ? 1 : inlet.shape_at(time_));
+    double resistance = scene_.number("outlet.resistance");
+    const bool is_rcr = scene_.text("outlet.kind") == "rcr";
+    if (is_rcr && is_periodic) resistance += scene_.number("outlet.proximal_resistance");
+    const double asked = scene_.number("outlet.pressure") + resistance * flow;
+    const bool is_known = !inlet.is_pressure && (is_periodic || !is_rcr);
+    const auto limit = radial::limit_load(network_.curve().model(), radial::WallCurve::greatest_stretch);
+    if (limit && is_known && asked > limit->pressure)
+      return fmt::format(
+          "the wall has no equilibrium at {:.4g} mmHg, the pressure that the inflow asks for: it carries at "
+          "most {:.4g} mmHg, at lumen stretch {:.4g} ({})",
+          asked / mmhg, limit->pressure / mmhg, limit->stretch, failure.what());
+    if (limit && !is_periodic && stretch_ > nearly * limit->stretch)
+      return fmt::format(
+          "the lumen has been opened to a stretch of {:.4g}, where the wall gives way: it carries at "
+          "most {:.4g} mmHg, at lumen stretch {:.4g} ({})",
+          stretch_, limit->pressure / mmhg, limit->stretch, failure.what());
+    if (limit || !is_known) return failure.what();
+    try {
+      const double stretch = nearly * radial::WallCurve::greatest_stretch;
+      const double carried = network_.curve().model().respond(stretch, {}, false).pressure;
+      if (asked > carried)
+        return fmt::format(
+            "the inflow asks for {:.4g} mmHg at the outlet's resistance, and at lumen stretch {:.3g}, about "
+            "the largest that is computed, the wall carries {:.4g} mmHg ({})",
+            asked / mmhg, stretch, carried / mmhg, failure.what());
+    } catch (const SolverFailure&) {
+      // Nothing is known there, so nothing is said of it.
+    }
+    return failure.what();
   }
 
   /// Tabulates the stretches that the run will see, estimated from the outlet's resistance, so that the
@@ -157,8 +178,8 @@ class LumpedRun final : public TierRun {
   double sensitivity_size(int k) const {
     const double value = std::abs(scene_.number(parameters_[k]));
     if (value > 0) return 1 / value;
-    std::vector<double> y = network_.rest(), none(y.size(), 0.0), rates(y.size());
-    for (double& entry : y) entry *= 2;
+    // As open as the artery comes to be under its load.
+    std::vector<double> y = network_.scales(), none(y.size(), 0.0), rates(y.size());
     network_.rate_derivative(0.5 * network_.inlet().period, y.data(), none.data(), k, rates.data());
     const auto scales = network_.scales();
     double size = 0;
@@ -166,11 +187,17 @@ class LumpedRun final : public TierRun {
     return size > 0 ? size : 1.0;
   }
 
-  System system(const RunControl& control) const {
+  System system(const RunControl& control) {
     System s;
     s.unknowns = network_.unknowns();
     s.bandwidth = network_.bandwidth();
+    s.time_scale = network_.inlet().period;
     s.scales = network_.scales();
+    s.magnitudes = [this](const double* y, double* result) { network_.magnitudes(y, result); };
+    s.progress = [this, &control](double t, const IntegratorStatistics& so_far) {
+      count(so_far);
+      tell(control, t);
+    };
     // Waves run to and fro between compartments; a single one is damped by its outlet.
     s.oscillates = scene_.flag("lumped.inertance") &&
                    (scene_.integer("lumped.compartments") > 1 || network_.inlet().is_pressure);
@@ -193,17 +220,21 @@ class LumpedRun final : public TierRun {
     std::vector<double> state = network_.rest();
     std::vector<std::vector<double>> derivatives;
     for (int k = 0; k < network_.parameters(); ++k) derivatives.push_back(network_.rest_derivative(k));
-    IntegratorStatistics statistics;
-    const auto begin_on = [&](auto start) {
-      state = std::move(start.state);
-      derivatives = std::move(start.derivatives);
-      statistics = start.statistics;
+    const auto begin_on = [&](auto found) {
+      state = std::move(found.state);
+      derivatives = std::move(found.derivatives);
+      before_ = found.statistics;
     };
     const double period = network_.inlet().period;
-    if (scene_.text("time.start") == "static")
+    const std::string start = scene_.text("time.start");
+    phase_ = start == "static"     ? Phase::to_static_start
+             : start == "periodic" ? Phase::to_limit_cycle
+                                   : Phase::beats;
+    if (phase_ == Phase::to_static_start)
       begin_on(find_steady_state(s, state, 0, period, carried));
-    else if (scene_.text("time.start") == "periodic")
-      begin_on(find_limit_cycle(s, state, period, carried, tolerance_));
+    else if (phase_ == Phase::to_limit_cycle)
+      begin_on(find_limit_cycle(s, guess_of_limit_cycle(s), period, carried, tolerance_));
+    phase_ = Phase::beats;
 
     Integrator integrator(s, carried, tolerance_);
     const double end = stops_.back().time, round_off = 1e-12 * end;
@@ -215,8 +246,7 @@ class LumpedRun final : public TierRun {
     integrator.start(0, *next_end, state, derivatives);
     for (const observables::Stop& stop : stops_) {
       while (stop.time - integrator.time() > round_off) {
-        const auto crossings = integrator.advance(std::min(stop.time, *next_end));
-        time_ = integrator.time();
+        const auto crossings = advance(integrator, std::min(stop.time, *next_end));
         for (const Crossing& crossing : crossings) log_.record(integrator, crossing);
         if (time_ < *next_end || time_ >= end) continue;
         state.assign(integrator.state(), integrator.state() + s.unknowns);
@@ -226,15 +256,48 @@ class LumpedRun final : public TierRun {
       }
       if (stop.begins_last_beat) log_.begin_last_beat(stop.time, integrator.state());
       record_stop(integrator, stop);
-      result_.record.steps = statistics.steps + integrator.statistics().steps;
-      result_.record.newton_iterations =
-          statistics.newton_iterations + integrator.statistics().newton_iterations;
-      result_.record.rejected_steps = statistics.rejected_steps + integrator.statistics().rejected_steps;
-      control.report(
-          {beat_at(stop.time), stop.time, end, result_.record.steps, result_.record.newton_iterations});
+      count(integrator.statistics());
+      tell(control, stop.time);
       if (control.interrupted()) throw Interrupted();
     }
     log_.end_last_beat(end);
+  }
+
+  /// The steady state of the inlet's first value, from which no waves set out that a whole beat would have to
+  /// be followed for; rest where there is none.
+  std::vector<double> guess_of_limit_cycle(const System& system) const {
+    try {
+      return find_steady_state(system, network_.rest(), 0, network_.inlet().period, {}).state;
+    } catch (const SolverFailure&) {
+      return network_.rest();
+    }
+  }
+
+  std::vector<Crossing> advance(Integrator& integrator, double time) {
+    const auto arrive = [&] {
+      time_ = integrator.time();
+      stretch_ = network_.greatest_stretch(integrator.state());
+    };
+    try {
+      auto crossings = integrator.advance(time);
+      arrive();
+      return crossings;
+    } catch (const SolverFailure&) {
+      arrive();
+      throw;
+    }
+  }
+
+  void count(const IntegratorStatistics& so_far) {
+    result_.record.steps = before_.steps + so_far.steps;
+    result_.record.newton_iterations = before_.newton_iterations + so_far.newton_iterations;
+    result_.record.rejected_steps = before_.rejected_steps + so_far.rejected_steps;
+  }
+
+  void tell(const RunControl& control, double time) const {
+    const bool on_the_way = phase_ != Phase::beats;
+    control.report({on_the_way ? 0 : beat_at(time), on_the_way ? 0.0 : time, stops_.back().time,
+                    result_.record.steps, result_.record.newton_iterations});
   }
 
   void record_stop(const Integrator& integrator, const observables::Stop& stop) {
@@ -269,7 +332,11 @@ class LumpedRun final : public TierRun {
   WallFields wall_fields_;
   std::vector<observables::Stop> stops_;
   double tolerance_;
-  double time_ = 0;
+  /// What is computed: a state to begin with, or the beats.
+  enum class Phase { to_static_start, to_limit_cycle, beats };
+  Phase phase_ = Phase::beats;
+  double time_ = 0, stretch_ = 1;  ///< that the beats have come to
+  IntegratorStatistics before_;    ///< of the search for the state to begin with
   RecruitmentLog log_;
   std::vector<std::string> warnings_;
   Result result_;

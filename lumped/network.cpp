@@ -18,6 +18,13 @@ using std::numbers::pi;
 
 namespace {
 
+/// Stretch - 1 of a length whose square has grown by a share.
+template <class P>
+P strain_of(const P& growth) {
+  using std::sqrt;
+  return growth / (1.0 + sqrt(1.0 + growth));
+}
+
 /// xi of P1..P4.
 std::vector<double> wall_places() {
   std::vector<double> places;
@@ -81,6 +88,7 @@ Network::Network(const Scene& scene, const std::vector<std::string>& parameters)
         "outlet.resistance = 0 with outlet.kind = \"rcr\" shorts its compliance; set it above 0");
 
   curve_ = std::make_unique<radial::WallCurve>(radial::ring_model(scene, parameters), wall_places());
+  scales_ = typical_sizes();
 }
 
 int Network::flow_index(int link) const {
@@ -95,7 +103,6 @@ int Network::area_index(int compartment) const {
 
 std::vector<double> Network::rest() const {
   std::vector<double> y(unknowns_, 0.0);
-  for (int i = 0; i < compartments_; ++i) y[area_index(i)] = 1;
   if (windkessel_) y.back() = inlet_.growth_at(0) * numbers_.outlet_pressure;
   return y;
 }
@@ -106,26 +113,45 @@ std::vector<double> Network::rest_derivative(int k) const {
   return dy;
 }
 
-std::vector<double> Network::scales() const {
+std::vector<double> Network::typical_sizes() {
   const auto& n = numbers_;
-  // A pressure of the size that the artery sees, and the flow that goes with it.
-  const double tissue_pressure = std::abs(curve_->pressure(1.1));
-  const double outlet = n.resistance + n.proximal_resistance;
   const double inlet = std::abs(n.inlet_scale) * inlet_.greatest_shape();
+  const double area = pi * n.radius * n.radius, outlet = n.resistance + n.proximal_resistance;
+  // The pressure that goes with the inlet's greatest value, as far as an artery can live with it.
+  constexpr double least = 1, greatest = 1e6;
+  const double inertance = 4.0 / 3 * n.density * n.length / area * (2 * pi / inlet_.period);
+  const double along = 8 * pi * n.viscosity * n.length / (area * area) + inertance;
+  working_pressure_ = std::clamp(
+      std::abs(n.outlet_pressure) + (inlet_.is_pressure ? inlet : (outlet + along) * inlet), least, greatest);
   const double flow = inlet_.is_pressure ? std::max(1.0, inlet) / std::max(outlet, 1.0) : inlet;
+  // dp/de, with s^2 = 1 + e.
+  const double slope = 0.5 * std::abs(curve_->pressure_slope(1.0));
+  const double growth = working_pressure_ < slope ? working_pressure_ / slope : 1;
   std::vector<double> scale(unknowns_, std::max(flow, 1e-12));
-  for (int i = 0; i < compartments_; ++i) scale[area_index(i)] = 1;
-  if (windkessel_) scale.back() = std::max(tissue_pressure, 1.0);
+  for (int i = 0; i < compartments_; ++i) scale[area_index(i)] = growth;
+  if (windkessel_) scale.back() = working_pressure_;
   return scale;
 }
 
+void Network::magnitudes(const double* y, double* result) const {
+  constexpr double absolute_share = 1e-2;
+  for (int i = 0; i < unknowns_; ++i) result[i] = std::abs(y[i]) + absolute_share * scales_[i];
+  for (int i = 0; i < compartments_; ++i) {
+    const double area_ratio = 1 + y[area_index(i)];
+    const auto stretch = radial::LumenStretch::of_strain(strain_of(y[area_index(i)]));
+    const double slope = std::abs(curve_->pressure_slope(stretch)) / (2 * stretch.value());
+    const double size = std::max(working_pressure_, std::abs(curve_->pressure(stretch)));
+    result[area_index(i)] = size < slope * area_ratio ? size / slope : area_ratio;
+  }
+}
+
 template <class P>
-P Network::curve_pressure(const P& stretch, int k) const {
+P Network::curve_pressure(const P& strain, int k) const {
+  const auto s = radial::LumenStretch::of_strain(plain(strain));
   if constexpr (std::same_as<P, double>) {
-    return curve_->pressure(stretch);
+    return curve_->pressure(s);
   } else {
-    const double s = plain(stretch);
-    double derivative = curve_->pressure_slope(s) * stretch.derivative[0];
+    double derivative = curve_->pressure_slope(s) * strain.derivative[0];
     if (k >= 0) derivative += curve_->pressure_derivative(s, k);
     return P(curve_->pressure(s), {derivative});
   }
@@ -141,7 +167,6 @@ struct Network::Flows {
 
 template <class P>
 Network::Flows<P> Network::flows(const NetworkNumbers<P>& n, double time, const P* y, int k) const {
-  using std::sqrt;
   const int last = compartments_;
   Flows<P> f;
   f.pressure.resize(last);
@@ -150,9 +175,10 @@ Network::Flows<P> Network::flows(const NetworkNumbers<P>& n, double time, const 
   f.flow.resize(last + 1);
   const P length = n.length / static_cast<double>(compartments_);
   for (int i = 0; i < last; ++i) {
-    const P area_ratio = y[area_index(i)];
+    const P growth = y[area_index(i)];
+    const P area_ratio = 1.0 + growth;
     if (!(plain(area_ratio) > 0)) throw SolverFailure("the lumen has closed");
-    f.pressure[i] = curve_pressure(P(sqrt(area_ratio)), k);
+    f.pressure[i] = curve_pressure(P(strain_of(growth)), k);
     const P square = n.radius * n.radius * area_ratio;
     f.resistance[i] = 8.0 * n.viscosity * length / (pi * square * square);
     if (inertance_) f.inertance[i] = (4.0 / 3.0) * n.density * length / (pi * square);
@@ -201,18 +227,17 @@ void Network::rate_of(const NetworkNumbers<P>& n, double time, const P* y, int k
 }
 
 template <class P>
-P Network::mid_stretch_of(const P* y) const {
-  using std::sqrt;
+P Network::mid_strain_of(const P* y) const {
   // An even number of compartments has its middle between two of them.
   const int lower = (compartments_ - 1) / 2, upper = compartments_ / 2;
-  return sqrt(0.5 * (y[area_index(lower)] + y[area_index(upper)]));
+  return strain_of(P(0.5 * (y[area_index(lower)] + y[area_index(upper)])));
 }
 
 template <class P>
 Outside<P> Network::outside_of(const NetworkNumbers<P>& n, double time, const P* y, int k) const {
   const Flows<P> f = flows(n, time, y, k);
-  const P stretch = mid_stretch_of(y);
-  return {f.flow.front(), f.flow.back(), f.outlet_pressure, stretch, curve_pressure(stretch, k)};
+  const P strain = mid_strain_of(y);
+  return {f.flow.front(), f.flow.back(), f.outlet_pressure, strain, curve_pressure(strain, k)};
 }
 
 namespace {
@@ -255,12 +280,18 @@ std::vector<Compartment> Network::inside(double time, const double* y) const {
   const Flows<double> f = flows(numbers_, time, y, -1);
   std::vector<Compartment> all;
   for (int i = 0; i < compartments_; ++i)
-    all.push_back({f.pressure[i], numbers_.radius * std::sqrt(y[area_index(i)]), f.flow[i + 1]});
+    all.push_back({f.pressure[i], numbers_.radius * std::sqrt(1 + y[area_index(i)]), f.flow[i + 1]});
   return all;
 }
 
-double Network::mid_stretch(const double* y) const {
-  return mid_stretch_of(y);
+radial::LumenStretch Network::mid_stretch(const double* y) const {
+  return radial::LumenStretch::of_strain(mid_strain_of(y));
+}
+
+double Network::greatest_stretch(const double* y) const {
+  double greatest = 0;
+  for (int i = 0; i < compartments_; ++i) greatest = std::max(greatest, 1 + y[area_index(i)]);
+  return std::sqrt(greatest);
 }
 
 }  // namespace tunica::lumped

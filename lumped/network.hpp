@@ -24,7 +24,7 @@ template <class P>
 struct Outside {
   P inflow, outflow;  ///< cm3/s
   P outlet_pressure;  ///< dyn/cm2
-  P lumen_stretch;    ///< of the section at mid-length
+  P lumen_strain;     ///< of the section at mid-length: its lumen stretch - 1
   P pressure;         ///< there, dyn/cm2
 };
 
@@ -38,10 +38,10 @@ struct Compartment {
 /// The artery as N compartments of nonlinear compliance in series, each the thick ring of the scene,
 /// joined by the Poiseuille resistance of the deformed lumen and, as an option, by the inertance of
 /// its blood. Unknowns, in this order along the artery:
-///   a_i  lumen area of compartment i over its unloaded area (the squared lumen stretch),
+///   e_i  growth of the lumen area of compartment i over its unloaded area (the squared lumen stretch - 1),
 ///   Q_i  flow from compartment i to the next, with inertance only,
 ///   p_c  pressure in the compliance of an rcr outlet.
-/// Balance of mass (l = L/N):       pi R0^2 l da_i/dt = Q_(i-1) - Q_i
+/// Balance of mass (l = L/N):       pi R0^2 l de_i/dt = Q_(i-1) - Q_i
 /// Balance of momentum:             I dQ_i/dt = p_i - p_(i+1) - R_p Q_i, or p_i - p_(i+1) = R_p Q_i
 /// with R_p = 8 mu l/(pi r^4) and I = 4/3 rho l/(pi r^2) (parabolic profile), half of each neighbour's.
 /// Outlet: p_out = p_v + R Q_N, or p_out = p_c + R_prox Q_N, C dp_c/dt = Q_N - (p_c - p_v)/R. Both implicit.
@@ -61,8 +61,12 @@ class Network {
   std::vector<double> rest() const;
   /// d(rest)/d(parameter k).
   std::vector<double> rest_derivative(int k) const;
-  /// Magnitude that each unknown is measured by in error control.
-  std::vector<double> scales() const;
+  /// Typical magnitude of each unknown.
+  const std::vector<double>& scales() const { return scales_; }
+  /// What errors of each unknown are measured by at y: for an area what moves it, or the pressure that it
+  /// takes, by as much as themselves, whichever is less. So a tolerance holds in pressure for walls of any
+  /// stiffness.
+  void magnitudes(const double* y, double* result) const;
 
   /// dy/dt. Throws SolverFailure when the wall has no equilibrium at y.
   void rate(double time, const double* y, double* dydt) const;
@@ -74,8 +78,10 @@ class Network {
   Outside<Dual<double, 1>> outside_derivative(double time, const double* y, const double* dy, int k) const;
   /// The compartments from the inlet to the outlet.
   std::vector<Compartment> inside(double time, const double* y) const;
-  /// Lumen stretch of the section at mid-length.
-  double mid_stretch(const double* y) const;
+  /// Of the section at mid-length.
+  radial::LumenStretch mid_stretch(const double* y) const;
+  /// Of the compartment that is opened most.
+  double greatest_stretch(const double* y) const;
 
   const Inlet& inlet() const { return inlet_; }
   /// Factor on the inlet's shape: mean flow (cm3/s) or pressure (dyn/cm2).
@@ -87,8 +93,10 @@ class Network {
  private:
   template <class P>
   NetworkNumbers<P> numbers(const SeededScene<P>& scene) const;
+  /// Sets the working pressure, too.
+  std::vector<double> typical_sizes();
   template <class P>
-  P curve_pressure(const P& stretch, int k) const;
+  P curve_pressure(const P& strain, int k) const;
   template <class P>
   struct Flows;
   template <class P>
@@ -98,7 +106,7 @@ class Network {
   template <class P>
   Outside<P> outside_of(const NetworkNumbers<P>& n, double time, const P* y, int k) const;
   template <class P>
-  P mid_stretch_of(const P* y) const;
+  P mid_strain_of(const P* y) const;
 
   int area_index(int compartment) const;
   /// Flow out of compartment i (0: the inlet's, with a pressure there); with inertance only.
@@ -111,6 +119,8 @@ class Network {
   NetworkNumbers<double> numbers_;
   std::vector<NetworkNumbers<Dual<double, 1>>> seeded_;
   std::unique_ptr<radial::WallCurve> curve_;
+  double working_pressure_ = 0;  ///< dyn/cm2, of the size that the artery sees
+  std::vector<double> scales_;
 };
 
 }  // namespace tunica::lumped

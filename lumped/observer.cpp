@@ -50,7 +50,7 @@ observables::Sample Observer::sample(double time, const double* y) const {
   sample.outflow = outside.outflow;
   sample.pressure = outside.pressure;
   sample.outlet_pressure = outside.outlet_pressure;
-  const double s = outside.lumen_stretch;
+  const auto s = radial::LumenStretch::of_strain(outside.lumen_strain);
   sample.transmural_pressure =
       outside.pressure - ring.external_pressure(curve.displacement(s, observables::wall_points - 1));
   for (int p = 0; p < observables::wall_points; ++p) {
@@ -98,8 +98,8 @@ void Observer::append_sensitivities(double time, const double* y,
     const int parameter = static_cast<int>(k);
     const Outside<D> outside = network_.outside_derivative(time, y, sensitivities[k], parameter);
     const auto& ring = network_.seeded_ring(parameter);
-    const double s = outside.lumen_stretch.value;
-    const double ds = outside.lumen_stretch.derivative[0];
+    const auto s = radial::LumenStretch::of_strain(outside.lumen_strain.value);
+    const double ds = outside.lumen_strain.derivative[0];
     const auto displacement = [&](int p) {
       return D(curve.displacement(s, p),
                {curve.displacement_rate(s, p) * ds + curve.displacement_derivative(s, parameter, p)});

@@ -24,8 +24,8 @@ int RecruitmentLog::events() const {
 }
 
 void RecruitmentLog::event_values(const double* y, double* values) const {
-  const double stretch = network_.mid_stretch(y);
-  for (const auto& threshold : network_.curve().thresholds()) *values++ = stretch - threshold.stretch;
+  const double strain = network_.mid_stretch(y).strain();
+  for (const auto& threshold : network_.curve().thresholds()) *values++ = strain - (threshold.stretch - 1);
 }
 
 /// dt*/dtheta of a crossing s(t*) = s_threshold: -(ds/dtheta - ds_threshold/dtheta) / (ds/dt).
@@ -34,7 +34,7 @@ std::vector<double> RecruitmentLog::derivatives(const Integrator& integrator,
   const double* y = integrator.state();
   const double time = integrator.time();
   const auto stretch_along = [&](const double* dy, int k) {
-    return network_.outside_derivative(time, y, dy, k).lumen_stretch.derivative[0];
+    return network_.outside_derivative(time, y, dy, k).lumen_strain.derivative[0];
   };
   std::vector<double> rate(network_.unknowns()), result;
   network_.rate(time, y, rate.data());
@@ -66,7 +66,7 @@ void RecruitmentLog::record(const Integrator& integrator, const Crossing& crossi
 }
 
 void RecruitmentLog::begin_last_beat(double time, const double* y) {
-  const double stretch = network_.mid_stretch(y);
+  const double stretch = network_.mid_stretch(y).value();
   for (const auto& threshold : network_.curve().thresholds())
     tallies_.push_back(
         {time, stretch > threshold.stretch, 0.0, std::vector<double>(parameters_.size(), 0.0)});

@@ -85,7 +85,8 @@ observables::FieldSeries WallFields::empty_series() const {
   return series;
 }
 
-void WallFields::append(double time, double lumen_stretch, observables::FieldSeries& series) const {
+void WallFields::append(double time, radial::LumenStretch lumen_stretch,
+                        observables::FieldSeries& series) const {
   const auto points = wall_profile(model_, lumen_stretch, places_);
   const auto around = [](std::vector<float>& values, double value) {
     values.insert(values.end(), sectors, static_cast<float>(value));

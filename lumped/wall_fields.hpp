@@ -18,7 +18,7 @@ class WallFields {
   /// displacement, stresses, and with fibres recruitment and fiber_stretch of family 1. No frames.
   observables::FieldSeries empty_series() const;
   /// Appends the ring in equilibrium at a lumen stretch. Throws SolverFailure.
-  void append(double time, double lumen_stretch, observables::FieldSeries& series) const;
+  void append(double time, radial::LumenStretch lumen_stretch, observables::FieldSeries& series) const;
 
  private:
   const radial::RingModel& model_;

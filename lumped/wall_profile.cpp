@@ -10,7 +10,8 @@ namespace tunica::lumped {
 
 using frame::Radial;
 
-std::vector<observables::ProfilePoint> wall_profile(const radial::RingModel& model, double lumen_stretch,
+std::vector<observables::ProfilePoint> wall_profile(const radial::RingModel& model,
+                                                    radial::LumenStretch lumen_stretch,
                                                     std::span<const double> places) {
   constexpr double degrees = 180 / std::numbers::pi;
   const auto& ring = model.ring();

@@ -11,7 +11,8 @@ namespace tunica::lumped {
 
 /// State of the wall in equilibrium at a lumen stretch, at `places` (xi in [0, 1]; a boundary belongs to
 /// the inner of its layers). The time of the points is not set. Throws SolverFailure.
-std::vector<observables::ProfilePoint> wall_profile(const radial::RingModel& model, double lumen_stretch,
+std::vector<observables::ProfilePoint> wall_profile(const radial::RingModel& model,
+                                                    radial::LumenStretch lumen_stretch,
                                                     std::span<const double> places);
 
 }  // namespace tunica::lumped

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/radial/limit_load.hpp"
 #include "core/radial/wall_curve.hpp"
 #include "core/units.hpp"
 
@@ -39,30 +40,12 @@ std::string explain(const Equations& equations, const NewtonReport& report) {
 
 std::string limit_of_wall(const radial::RingModel* ring, double pressure) {
   if (!ring || pressure <= 0) return {};
-  constexpr double growth = 1.03;
-  // Where pressure grows by less than this share of the growth of the stretch, it will not grow much more.
-  constexpr double flat = 0.3;
-  double greatest = 0, at = 1, before = 0;
-  bool is_flat = false;
-  try {
-    for (double stretch = growth; stretch < radial::WallCurve::greatest_stretch; stretch *= growth) {
-      const double p = ring->respond(stretch, {}, false).pressure;
-      if (p >= pressure) return {};
-      is_flat = p < before * (1 + flat * (growth - 1));
-      before = p;
-      if (p > greatest) {
-        greatest = p;
-        at = stretch;
-      }
-    }
-  } catch (const SolverFailure&) {
-    // What was found up to there counts.
-  }
-  if (!is_flat) return {};
+  const auto limit = radial::limit_load(*ring, radial::WallCurve::greatest_stretch);
+  if (!limit || limit->pressure >= pressure) return {};
   return fmt::format(
       "; the wall cannot carry {:.4g} mmHg: as a ring it carries at most {:.4g} mmHg, at lumen "
       "stretch {:.3g}",
-      pressure / mmhg, greatest / mmhg, at);
+      pressure / mmhg, limit->pressure / mmhg, limit->stretch);
 }
 
 }  // namespace tunica::coupled

@@ -3,11 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/linear/anderson.hpp"
 
 namespace tunica::coupled {
 
@@ -82,7 +83,7 @@ LimitCycle limit_cycle(Simulation& simulation, std::vector<double> guess, double
   using Vector = Eigen::VectorXd;
   const auto size = static_cast<Eigen::Index>(guess.size());
   Vector x = Eigen::Map<const Vector>(guess.data(), size);
-  std::vector<Vector> images, differences;
+  linear::Anderson anderson(depth);
   std::vector<double> rates;
   for (;;) {
     simulation.start(0, std::vector<double>(x.data(), x.data() + size), rates);
@@ -96,29 +97,16 @@ LimitCycle limit_cycle(Simulation& simulation, std::vector<double> guess, double
     const Vector image = Eigen::Map<const Vector>(simulation.state().data(), size);
     const Vector weights = range.weights(simulation.equations(), simulation.expected_sizes());
     ++report.periods;
-    images.push_back(image);
-    differences.emplace_back(image - x);
-    if (images.size() > depth) {
-      images.erase(images.begin());
-      differences.erase(differences.begin());
-    }
-    x = image;
-    const auto m = static_cast<Eigen::Index>(images.size());
-    if (m > 1) {
-      Eigen::MatrixXd changes(size, m - 1);
-      for (Eigen::Index k = 0; k + 1 < m; ++k)
-        changes.col(k) = weights.cwiseProduct(differences[k + 1] - differences[k]);
-      const Vector mix = changes.colPivHouseholderQr().solve(weights.cwiseProduct(differences.back()));
-      for (Eigen::Index k = 0; k + 1 < m; ++k) x -= mix[k] * (images[k + 1] - images[k]);
-    }
+    const Vector difference = image - x;
+    x = anderson.next(x, image, weights);
     const auto norm = [&](const Vector& v) {
       return norm_of(v.cwiseProduct(weights), simulation.layout().windkessel_pressure);
     };
     // What changes slowly may still be far from its end. The extrapolation knows how far, but from two
     // periods alone it cannot tell that from what dies at once. It magnifies what steps leave in a period as
     // it does the change, so that less than a few tenths of the tolerance cannot be asked of it.
-    const double change = norm(differences.back());
-    const double left = m > 2 ? norm(x - image) : 10 * change;
+    const double change = norm(difference);
+    const double left = anderson.images() > 2 ? norm(x - image) : 10 * change;
     report.change = std::max(change, left);
     if (change <= 0.1 * tolerance && left <= 0.3 * tolerance) return {simulation.state(), std::move(rates)};
     if (report.periods >= most)

@@ -20,9 +20,8 @@ struct LimitCycle {
 };
 
 /// A state that repeats after one period: the fixed point of the map that takes a state one period on, by
-/// Anderson's acceleration (Walker and Ni, SIAM J. Numer. Anal. 49:1715, 2011) from `guess`. What decays
-/// slowly, the charge of the outlet's compliance and of the wall, is a few modes, which it finds within about
-/// twice as many periods.
+/// Anderson's acceleration from `guess`. What decays slowly, the charge of the outlet's compliance and of the
+/// wall, is a few modes.
 /// Throws SolverFailure when `most` periods do not bring the change per period below a tenth of `tolerance`,
 /// and what is left as far as the acceleration knows below three tenths. `interrupted` is asked between
 /// steps; when it says so, an empty state is returned.

@@ -8,111 +8,34 @@
 #include <numeric>
 
 #include "core/error.hpp"
-#include "core/frame.hpp"
 #include "core/linear/band_matrix.hpp"
+#include "core/radial/area_motion.hpp"
+#include "core/radial/ring_variants.hpp"
 
 namespace tunica::radial {
 
-using frame::Radial;
-
 struct CompressibleRing::Solution {
   std::vector<Interval> mesh;
-  std::vector<double> displacement;  ///< nodal; neighbours share their end node
+  double inner = 0;           ///< v_i, cm2
+  std::vector<double> nodal;  ///< w, cm2; neighbours share their end node
 };
 
-/// The discrete equations, linearised. The inner node is prescribed: the other nodes are free.
+/// The discrete equations, linearised. The inner node, where w = 0, is prescribed: the other nodes are free.
 struct CompressibleRing::System {
-  linear::BandMatrix tangent;        ///< of the free nodes
-  std::vector<double> inner_column;  ///< derivative of their residuals by the inner node
-  std::vector<double> residual;      ///< of the free nodes
-  /// The weak form tested with v = 1, p r_i = T(u_o) + int P_TT dR: it gives the pressure without the
-  /// slopes that round-off spoils in the short elements at a front.
-  double reaction = 0;
-  std::vector<double> reaction_slope;  ///< by every node
+  linear::BandMatrix tangent;          ///< of the free nodes
+  std::vector<double> residual;        ///< of the free nodes
+  std::vector<double> by_inner;        ///< derivative of their residuals by v_i
+  double pressure = 0;                 ///< in the lumen
+  std::vector<double> pressure_slope;  ///< by every node
+  double pressure_by_inner = 0;
 
-  double reaction_along(double inner, std::span<const double> free) const {
-    return std::inner_product(free.begin(), free.end(), reaction_slope.begin() + 1,
-                              reaction_slope[0] * inner);
+  double pressure_along(double inner, std::span<const double> free) const {
+    return std::inner_product(free.begin(), free.end(), pressure_slope.begin() + 1,
+                              pressure_by_inner * inner);
   }
 };
 
 namespace {
-
-/// u(R) of an incompressible ring with the same lumen stretch: r^2 - R^2 is constant.
-Field incompressible_guess(const Ring<double>& ring, double lumen_stretch) {
-  const double r0 = ring.inner_radius;
-  const double shift = (lumen_stretch * lumen_stretch - 1) * r0 * r0;
-  return [&ring, shift](double xi) {
-    const double radius = ring.radius(xi);
-    const double current = std::sqrt(radius * radius + shift);
-    return std::pair{shift / (current + radius), radius / current - 1};
-  };
-}
-
-/// dP/dH restricted to the two entries of H that a ring has.
-struct RadialStress {
-  double radial, hoop;
-  std::array<double, 2> radial_tangent, hoop_tangent;
-};
-
-RadialStress radial_stress(const wall::Law<double>& law, double slope, double hoop) {
-  using Strain = Dual<double, 2>;
-  const auto gradient =
-      Tensor<Strain>::diagonal(Strain::variable(slope, 0), Strain::variable(hoop, 1), Strain(0.0));
-  const auto stress = wall::piola(law, gradient, Radial::axes());
-  return {stress(0, 0).value, stress(1, 1).value, stress(0, 0).derivative, stress(1, 1).derivative};
-}
-
-bool stress_jumps(const Ring<double>& ring) {
-  return std::any_of(ring.layers.begin(), ring.layers.end(), [](const auto& layer) {
-    const auto& families = wall::families(layer.law);
-    return std::any_of(families.begin(), families.end(),
-                       [](const auto& family) { return family.exponent == 1; });
-  });
-}
-
-/// Families at +beta and -beta act alike on a ring, whose shear stress nobody asks for: one of twice
-/// the weight stands for both.
-Ring<double> with_mirror_images_merged(Ring<double> ring) {
-  for (auto& layer : ring.layers) {
-    std::visit(
-        [&](auto& law) {
-          if constexpr (wall::HasFamilies<std::decay_t<decltype(law)>>) {
-            std::vector<wall::CollagenFamily<double>> merged;
-            for (const auto& family : law.families) {
-              const auto image = std::find_if(merged.begin(), merged.end(), [&](const auto& other) {
-                return std::abs(other.angle) == std::abs(family.angle) &&
-                       other.stiffness == family.stiffness && other.stiffening == family.stiffening &&
-                       other.activation_squared == family.activation_squared &&
-                       other.exponent == family.exponent &&
-                       other.recruitment.sharpness == family.recruitment.sharpness &&
-                       other.recruitment.sharp == family.recruitment.sharp;
-              });
-              if (image == merged.end())
-                merged.push_back(family);
-              else
-                image->weight += family.weight;
-            }
-            law.families = std::move(merged);
-          }
-        },
-        layer.law);
-  }
-  return ring;
-}
-
-Ring<double> with_sharpness_at_most(Ring<double> ring, double sharpness) {
-  for (auto& layer : ring.layers) {
-    std::visit(
-        [&](auto& law) {
-          if constexpr (wall::HasFamilies<std::decay_t<decltype(law)>>)
-            for (auto& family : law.families)
-              family.recruitment.sharpness = std::min(family.recruitment.sharpness, sharpness);
-        },
-        layer.law);
-  }
-  return ring;
-}
 
 std::size_t interval_at(const std::vector<Interval>& mesh, double xi) {
   // An interface belongs to the inner element.
@@ -133,32 +56,55 @@ CompressibleRing::CompressibleRing(Ring<double> ring, std::vector<Seeded> seeded
 
 Field CompressibleRing::field(const Solution& solution) const {
   return [this, &solution](double xi) {
-    const auto s = state(ring_, solution, solution.displacement, xi);
+    const auto s = state(merged_, solution, solution.inner, solution.nodal, xi);
     return std::pair{s.displacement, s.radial_slope};
   };
 }
 
-void CompressibleRing::interpolate(const Field& field, Solution& solution) const {
+CompressibleRing::Solution CompressibleRing::incompressible(LumenStretch lumen_stretch) const {
+  Solution solution{
+      refined_for(merged_, radial_mesh(boundaries_, {})), inner_area(merged_, lumen_stretch), {}};
+  solution.nodal.assign(solution.mesh.size() * line_.degree() + 1, 0.0);
+  return solution;
+}
+
+CompressibleRing::Solution CompressibleRing::refitted(const Solution& solution, LumenStretch lumen_stretch,
+                                                      const std::vector<Front>& fronts) const {
   const int degree = line_.degree();
-  solution.displacement.resize(solution.mesh.size() * degree + 1);
-  for (std::size_t e = 0; e < solution.mesh.size(); ++e) {
-    const Interval& cell = solution.mesh[e];
+  Solution fitted{
+      refined_for(merged_, radial_mesh(boundaries_, fronts)), inner_area(merged_, lumen_stretch), {}};
+  fitted.nodal.resize(fitted.mesh.size() * degree + 1);
+  std::vector<double> shapes(line_.nodes());
+  for (std::size_t e = 0; e < fitted.mesh.size(); ++e) {
+    const Interval& cell = fitted.mesh[e];
     for (int k = 0; k <= degree; ++k) {
-      const double xi = cell.lower + 0.5 * (cell.upper - cell.lower) * (1 + line_.node(k));
-      solution.displacement[e * degree + k] = field(std::min(xi, cell.upper)).first;
+      const double xi =
+          std::min(cell.lower + 0.5 * (cell.upper - cell.lower) * (1 + line_.node(k)), cell.upper);
+      const std::size_t from = interval_at(solution.mesh, xi);
+      const Interval& source = solution.mesh[from];
+      line_.shapes_at((2 * xi - source.lower - source.upper) / (source.upper - source.lower), shapes.data());
+      fitted.nodal[e * degree + k] =
+          std::inner_product(shapes.begin(), shapes.end(), solution.nodal.begin() + from * degree, 0.0);
     }
   }
+  fitted.nodal.front() = 0;
+  return fitted;
 }
 
 void CompressibleRing::assemble(const Ring<double>& ring, const Solution& solution, System& system) const {
+  using Change = Dual<double, 2>;
   const int n = line_.nodes();
-  const std::size_t nodes = solution.displacement.size();
+  const std::size_t nodes = solution.nodal.size();
   system.tangent.reset(nodes - 1, n - 1);
-  system.inner_column.assign(nodes - 1, 0.0);
   system.residual.assign(nodes - 1, 0.0);
-  system.reaction_slope.assign(nodes, 0.0);
-  system.reaction = 0;
-  std::vector<double> slope(n), hoop(n);
+  system.by_inner.assign(nodes - 1, 0.0);
+  system.pressure_slope.assign(nodes, 0.0);
+  const double radius = ring.radius(1.0);
+  const auto tether = ring.external_pressure(
+      motion(seed(solution.inner + solution.nodal.back()), Dual<double, 1>(0.0), radius).displacement);
+  system.pressure = tether.value;
+  system.pressure_by_inner = tether.derivative[0];
+  std::vector<double> slope(n);
   for (std::size_t e = 0; e < solution.mesh.size(); ++e) {
     const Interval& cell = solution.mesh[e];
     const auto& law = ring.layers[cell.layer].law;
@@ -166,51 +112,44 @@ void CompressibleRing::assemble(const Ring<double>& ring, const Solution& soluti
     const double half_width = half * ring.thickness;
     const std::size_t first = e * (n - 1);
     for (std::size_t q = 0; q < line_.rule().size(); ++q) {
-      const double radius = ring.radius(cell.lower + half * (1 + line_.rule()[q].position));
-      double du = 0, u_over_r = 0;
+      const double place = ring.radius(cell.lower + half * (1 + line_.rule()[q].position));
+      double area = 0, area_slope = 0;
       for (int k = 0; k < n; ++k) {
         slope[k] = line_.slope(q, k) / half_width;
-        hoop[k] = line_.shape(q, k) / radius;
-        du += slope[k] * solution.displacement[first + k];
-        u_over_r += hoop[k] * solution.displacement[first + k];
+        area += line_.shape(q, k) * solution.nodal[first + k];
+        area_slope += slope[k] * solution.nodal[first + k];
       }
-      const RadialStress stress = radial_stress(law, du, u_over_r);
-      const double weight = line_.rule()[q].weight * half_width * Radial::measure(radius);
-      system.reaction += weight / radius * stress.hoop;
+      const auto flux =
+          fluxes(law, Change::variable(solution.inner + area, 0), Change::variable(area_slope, 1), place);
+      const auto& [radial, hoop] = flux;
+      const double weight = line_.rule()[q].weight * half_width;
+      system.pressure += weight * hoop.value;
+      system.pressure_by_inner += weight * hoop.derivative[0];
       for (int i = 0; i < n; ++i) {
-        system.reaction_slope[first + i] +=
-            weight / radius * (stress.hoop_tangent[0] * slope[i] + stress.hoop_tangent[1] * hoop[i]);
+        const double shape = line_.shape(q, i);
+        system.pressure_slope[first + i] +=
+            weight * (hoop.derivative[0] * shape + hoop.derivative[1] * slope[i]);
         if (first + i == 0) continue;
         const std::size_t row = first + i - 1;
-        system.residual[row] += weight * (stress.radial * slope[i] + stress.hoop * hoop[i]);
-        const double by_slope =
-            weight * (slope[i] * stress.radial_tangent[0] + hoop[i] * stress.hoop_tangent[0]);
-        const double by_hoop =
-            weight * (slope[i] * stress.radial_tangent[1] + hoop[i] * stress.hoop_tangent[1]);
-        for (int j = 0; j < n; ++j) {
-          const double entry = by_slope * slope[j] + by_hoop * hoop[j];
-          if (first + j == 0)
-            system.inner_column[row] += entry;
-          else
-            system.tangent.add(row, first + j - 1, entry);
-        }
+        system.residual[row] += weight * (radial.value * slope[i] + hoop.value * shape);
+        const double by_area = weight * (radial.derivative[0] * slope[i] + hoop.derivative[0] * shape);
+        const double by_slope = weight * (radial.derivative[1] * slope[i] + hoop.derivative[1] * shape);
+        system.by_inner[row] += by_area;
+        for (int j = 0; j < n; ++j)
+          if (first + j > 0)
+            system.tangent.add(row, first + j - 1, by_area * line_.shape(q, j) + by_slope * slope[j]);
       }
     }
   }
-  const auto tether = ring.tether_force(seed(solution.displacement.back()));
   system.residual.back() += tether.value;
+  system.by_inner.back() += tether.derivative[0];
   system.tangent.add(nodes - 2, nodes - 2, tether.derivative[0]);
-  system.reaction += tether.value;
-  system.reaction_slope.back() += tether.derivative[0];
+  system.pressure_slope.back() += tether.derivative[0];
 }
 
 bool CompressibleRing::newton(const Ring<double>& ring, Solution& solution) const {
   constexpr int most_iterations = 40;
-  // Convergence is quadratic, so the error that an update leaves is about its square over the one
-  // before. That error, and not the update, has to be negligible.
-  const double negligible = 1e-13 * ring.inner_radius;
-  double previous_update = ring.inner_radius;
-  const auto inner = solution.displacement.front();
+  double previous_update = ring.inner_radius * ring.inner_radius;
   System system;
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     assemble(ring, solution, system);
@@ -224,81 +163,91 @@ bool CompressibleRing::newton(const Ring<double>& ring, Solution& solution) cons
 
     // A full step that would turn an element inside out is shortened.
     double step = 1;
-    const std::vector<double> before = solution.displacement;
+    const std::vector<double> before = solution.nodal;
     const auto inverted = [&] {
-      for (std::size_t k = 1; k < before.size(); ++k)
-        solution.displacement[k] = before[k] + step * update[k - 1];
+      for (std::size_t k = 1; k < before.size(); ++k) solution.nodal[k] = before[k] + step * update[k - 1];
       const int degree = line_.degree();
       for (std::size_t e = 0; e < solution.mesh.size(); ++e) {
         const Interval& cell = solution.mesh[e];
-        const double half_width = 0.5 * (cell.upper - cell.lower) * ring.thickness;
+        const double half = 0.5 * (cell.upper - cell.lower);
         for (std::size_t q = 0; q < line_.rule().size(); ++q) {
-          double du = 0;
-          for (int k = 0; k <= degree; ++k) du += line_.slope(q, k) * solution.displacement[e * degree + k];
-          if (1 + du / half_width <= 0) return true;
+          const double radius = ring.radius(cell.lower + half * (1 + line_.rule()[q].position));
+          double area = solution.inner, area_slope = 0;
+          for (int k = 0; k <= degree; ++k) {
+            area += line_.shape(q, k) * solution.nodal[e * degree + k];
+            area_slope += line_.slope(q, k) * solution.nodal[e * degree + k];
+          }
+          if (radius + area_slope / (half * ring.thickness) <= 0 || radius * radius + 2 * area <= 0)
+            return true;
         }
       }
-      return false;
+      const double outer = ring.radius(1.0);
+      return outer * outer + 2 * (solution.inner + solution.nodal.back()) <= 0;
     };
     while (inverted() && step > 1e-3) step *= 0.5;
     // Well-behaved walls converge in a few full steps. Where stress all but jumps Newton's method
     // cycles around the jump, unless each step has to bring the residual down.
     constexpr int full_steps = 6;
+    // Convergence is quadratic, so the error that an update leaves is about its square over the one
+    // before. That error, and not the update, has to be negligible beside w, which is all that the stiff
+    // volume change depends on.
+    double largest = 0;
+    for (const double w : solution.nodal) largest = std::max(largest, std::abs(w));
+    const double negligible = 1e-13 * largest;
+    const auto is_small = [&] { return size * size <= negligible * previous_update; };
     if (iteration >= full_steps) {
       const auto squared = [](std::span<const double> r) {
         return std::inner_product(r.begin(), r.end(), r.begin(), 0.0);
       };
       const double before_step = squared(system.residual);
       const auto grows = [&] {
-        const auto r = residual(ring, solution, inner).nodal;
+        const auto r = residual(ring, solution, solution.inner).nodal;
         return !(squared(std::span(r).subspan(1)) < before_step);
       };
-      while (size * size > negligible * previous_update && grows() && step > 1e-3) {
+      while (!is_small() && grows() && step > 1e-3) {
         step *= 0.5;
         inverted();
       }
     }
-    solution.displacement.front() = inner;
-    if (step == 1 && size * size < negligible * previous_update) return true;
+    if (step == 1 && is_small()) return true;
     previous_update = std::max(size, negligible);
   }
   return false;
 }
 
-CompressibleRing::Solution CompressibleRing::solve_from(const Ring<double>& ring, double lumen_stretch,
-                                                        const Field& guess) const {
-  const double inner = (lumen_stretch - 1) * ring.inner_radius;
-  Solution solution;
-  solution.mesh = radial_mesh(boundaries_, find_fronts(ring, boundaries_, guess));
-  interpolate(guess, solution);
-  solution.displacement.front() = inner;
-  constexpr int most_fits = 30;
+CompressibleRing::Solution CompressibleRing::solve_from(const Ring<double>& ring, LumenStretch lumen_stretch,
+                                                        const Solution& guess) const {
+  Solution start = guess;
+  start.inner = inner_area(merged_, lumen_stretch);
+  std::vector<Front> put = find_fronts(ring, boundaries_, field(start));
+  Solution solution = refitted(start, lumen_stretch, put);
+  FrontSearch search;
+  constexpr int most_fits = 60;
   for (int fit = 0; fit < most_fits; ++fit) {
     if (!newton(ring, solution))
       throw SolverFailure(fmt::format(
-          "the wall has no equilibrium that Newton's method finds at lumen stretch {:.6g}", lumen_stretch));
-    const std::vector<Front> moved = find_fronts(ring, boundaries_, field(solution));
-    const bool fitted_already = std::all_of(
-        moved.begin(), moved.end(), [&](const Front& front) { return has_end_near(solution.mesh, front); });
-    if (fitted_already) return solution;
-    Solution fitted{radial_mesh(boundaries_, moved), {}};
-    interpolate(field(solution), fitted);
-    fitted.displacement.front() = inner;
-    solution = std::move(fitted);
+          "Newton's method finds no equilibrium of the wall at lumen stretch {:.6g}", lumen_stretch.value()));
+    const std::vector<Front> found = find_fronts(ring, boundaries_, field(solution));
+    const bool is_fitted = std::all_of(
+        found.begin(), found.end(), [&](const Front& front) { return has_end_near(solution.mesh, front); });
+    if (is_fitted) return solution;
+    put = search.next(put, found);
+    if (search.is_closed()) return solution;
+    solution = refitted(solution, lumen_stretch, put);
   }
   throw SolverFailure(
-      fmt::format("the recruitment front does not settle at lumen stretch {:.6g}", lumen_stretch));
+      fmt::format("the recruitment front does not settle at lumen stretch {:.6g}", lumen_stretch.value()));
 }
 
-CompressibleRing::Solution CompressibleRing::solve(double lumen_stretch) const {
-  if (!(lumen_stretch > 0))
-    throw SolverFailure(fmt::format("the lumen has closed (stretch {:.6g})", lumen_stretch));
-  const Field guess = incompressible_guess(merged_, lumen_stretch);
-  if (stress_jumps(merged_)) return solve_by_sharpening(lumen_stretch, guess);
+CompressibleRing::Solution CompressibleRing::solve(LumenStretch lumen_stretch) const {
+  if (!(lumen_stretch.value() > 0))
+    throw SolverFailure(fmt::format("the lumen has closed (stretch {:.6g})", lumen_stretch.value()));
+  if (stress_jumps(merged_)) return solve_by_sharpening(lumen_stretch);
   try {
-    return solve_from(merged_, lumen_stretch, guess);
+    return solve_from(merged_, lumen_stretch, incompressible(lumen_stretch));
   } catch (const SolverFailure&) {
-    return solve_by_stretching(lumen_stretch);
+    return with_bulk_moduli_times(merged_, 1) ? solve_by_softening(lumen_stretch)
+                                              : solve_by_stretching(lumen_stretch);
   }
 }
 
@@ -307,18 +256,18 @@ double CompressibleRing::accuracy() const {
   return stress_jumps(merged_) ? 1e-7 : 1e-10;
 }
 
-CompressibleRing::Solution CompressibleRing::solve_by_sharpening(double lumen_stretch,
-                                                                 const Field& guess) const {
+CompressibleRing::Solution CompressibleRing::solve_by_sharpening(LumenStretch lumen_stretch) const {
   double sharpest = 0;
   for (const auto& layer : merged_.layers)
     for (const auto& family : wall::families(layer.law))
       sharpest = std::max(sharpest, family.recruitment.sharpness);
   double sharpness = 10, ratio = 4;
-  Solution solution = solve_from(with_sharpness_at_most(merged_, sharpness), lumen_stretch, guess);
+  Solution solution =
+      solve_from(with_sharpness_at_most(merged_, sharpness), lumen_stretch, incompressible(lumen_stretch));
   while (sharpness < sharpest) {
     const double next = std::min(sharpest, sharpness * ratio);
     try {
-      solution = solve_from(with_sharpness_at_most(merged_, next), lumen_stretch, field(solution));
+      solution = solve_from(with_sharpness_at_most(merged_, next), lumen_stretch, solution);
       sharpness = next;
     } catch (const SolverFailure&) {
       ratio = std::sqrt(ratio);
@@ -328,18 +277,39 @@ CompressibleRing::Solution CompressibleRing::solve_by_sharpening(double lumen_st
   return solution;
 }
 
-CompressibleRing::Solution CompressibleRing::solve_by_stretching(double lumen_stretch) const {
-  double reached = 1, step = 0.25 * (lumen_stretch - 1);
-  Solution solution = solve_from(merged_, 1.0, incompressible_guess(ring_, 1.0));
-  while (std::abs(reached - lumen_stretch) > 1e-14) {
-    const double next = std::abs(lumen_stretch - reached) <= std::abs(step) ? lumen_stretch : reached + step;
+CompressibleRing::Solution CompressibleRing::solve_by_softening(LumenStretch lumen_stretch) const {
+  // So stiff that only overflow keeps Newton's method from the incompressible solution.
+  constexpr double stiffest = 1e8;
+  double factor = stiffest, ratio = 100;
+  Solution solution =
+      solve_from(*with_bulk_moduli_times(merged_, factor), lumen_stretch, incompressible(lumen_stretch));
+  while (factor > 1) {
+    const double next = std::max(1.0, factor / ratio);
     try {
-      solution = solve_from(merged_, next, field(solution));
-      reached = next;
+      solution = solve_from(*with_bulk_moduli_times(merged_, next), lumen_stretch, solution);
+      factor = next;
+      ratio *= 1.5;
+    } catch (const SolverFailure&) {
+      ratio = std::sqrt(ratio);
+      if (ratio < 1.02) throw;
+    }
+  }
+  return solution;
+}
+
+CompressibleRing::Solution CompressibleRing::solve_by_stretching(LumenStretch lumen_stretch) const {
+  const double strain = lumen_stretch.strain();
+  double share = 0, step = 0.25;
+  Solution solution = solve_from(merged_, 1.0, incompressible(1.0));
+  while (share < 1) {
+    const double next = std::min(1.0, share + step);
+    try {
+      solution = solve_from(merged_, LumenStretch::of_strain(next * strain), solution);
+      share = next;
       step *= 1.5;
     } catch (const SolverFailure&) {
       step *= 0.25;
-      if (std::abs(step) < 1e-3 * std::abs(lumen_stretch - 1)) throw;
+      if (step < 1e-3) throw;
     }
   }
   return solution;
@@ -347,11 +317,12 @@ CompressibleRing::Solution CompressibleRing::solve_by_stretching(double lumen_st
 
 template <class P>
 CompressibleRing::Residual<P> CompressibleRing::residual(const Ring<P>& ring, const Solution& solution,
-                                                         const P& inner_displacement) const {
+                                                         const P& inner) const {
   const int n = line_.nodes();
-  std::vector<P> displacement(solution.displacement.begin(), solution.displacement.end());
-  displacement.front() = inner_displacement;
-  Residual<P> result{std::vector<P>(displacement.size(), P(0.0)), ring.tether_force(displacement.back())};
+  const P outer = ring.radius(1.0);
+  const P tether =
+      ring.external_pressure(motion(P(inner + solution.nodal.back()), P(0.0), outer).displacement);
+  Residual<P> result{std::vector<P>(solution.nodal.size(), P(0.0)), tether};
   for (std::size_t e = 0; e < solution.mesh.size(); ++e) {
     const Interval& cell = solution.mesh[e];
     const MovingInterval<P> ends = moved_with_layers(ring, boundaries_, cell);
@@ -360,28 +331,27 @@ CompressibleRing::Residual<P> CompressibleRing::residual(const Ring<P>& ring, co
     const std::size_t first = e * (n - 1);
     for (std::size_t q = 0; q < line_.rule().size(); ++q) {
       const P radius = ring.radius(P(ends.lower + half * (1 + line_.rule()[q].position)));
-      P u(0.0), du(0.0);
+      double area = 0, area_slope = 0;
       for (int k = 0; k < n; ++k) {
-        u += line_.shape(q, k) * displacement[first + k];
-        du += line_.slope(q, k) * displacement[first + k];
+        area += line_.shape(q, k) * solution.nodal[first + k];
+        area_slope += line_.slope(q, k) * solution.nodal[first + k];
       }
-      const Tensor<P> stress = wall::piola(ring.layers[cell.layer].law,
-                                           Radial::gradient(u, P(du / half_width), radius), Radial::axes());
-      const P weight = line_.rule()[q].weight * half_width * Radial::measure(radius);
-      result.reaction += weight * Radial::contract_with_test(stress, 1.0, P(0.0), radius);
+      const auto [radial, hoop] =
+          fluxes(ring.layers[cell.layer].law, P(inner + area), P(area_slope / half_width), radius);
+      const P weight = line_.rule()[q].weight * half_width;
+      result.pressure += weight * hoop;
       for (int k = 0; k < n; ++k)
         result.nodal[first + k] +=
-            weight *
-            Radial::contract_with_test(stress, line_.shape(q, k), P(line_.slope(q, k) / half_width), radius);
+            weight * (radial * P(line_.slope(q, k) / half_width) + hoop * line_.shape(q, k));
     }
   }
-  result.nodal.back() += ring.tether_force(displacement.back());
+  result.nodal.back() += tether;
   return result;
 }
 
-template <class P>
-WallState<P> CompressibleRing::state(const Ring<P>& ring, const Solution& solution,
-                                     const std::vector<P>& displacement, double xi) const {
+template <class P, class S>
+WallState<S> CompressibleRing::state(const Ring<P>& ring, const Solution& solution, const S& inner,
+                                     const std::vector<S>& nodal, double xi) const {
   const std::size_t e = interval_at(solution.mesh, xi);
   const Interval& cell = solution.mesh[e];
   const MovingInterval<P> ends = moved_with_layers(ring, boundaries_, cell);
@@ -393,81 +363,83 @@ WallState<P> CompressibleRing::state(const Ring<P>& ring, const Solution& soluti
   std::vector<double> shapes(n), slopes(n);
   line_.shapes_at(position, shapes.data());
   line_.slopes_from(shapes.data(), slopes.data());
-  P u(0.0), du(0.0);
+  S area(0.0), area_slope(0.0);
   for (int k = 0; k < n; ++k) {
-    u += shapes[k] * displacement[e * (n - 1) + k];
-    du += slopes[k] * displacement[e * (n - 1) + k];
+    area += shapes[k] * nodal[e * (n - 1) + k];
+    area_slope += slopes[k] * nodal[e * (n - 1) + k];
   }
   if constexpr (!std::same_as<P, double>) {
     if (const double speed = moving_position.derivative[0]; speed != 0) {
-      u.derivative[0] += du.value * speed;
+      area.derivative[0] += area_slope.value * speed;
       // The second derivative, from the first at the nodes: both are polynomials of the element.
       double curvature = 0;
       std::vector<double> at_node(n);
       for (int j = 0; j < n; ++j) {
         line_.slopes_at(line_.node(j), at_node.data());
         double slope = 0;
-        for (int k = 0; k < n; ++k) slope += at_node[k] * displacement[e * (n - 1) + k].value;
+        for (int k = 0; k < n; ++k) slope += at_node[k] * nodal[e * (n - 1) + k].value;
         curvature += slope * slopes[j];
       }
-      du.derivative[0] += curvature * speed;
+      area_slope.derivative[0] += curvature * speed;
     }
   }
-  du = du / (half * ring.thickness);
-  return {u, du, P(0.0)};
+  area += inner;
+  area_slope = area_slope / (half * ring.thickness);
+  const P radius = ring.radius(xi);
+  WallState<S> result = motion(area, area_slope, radius);
+  result.radial_stress = fluxes(ring.layers[cell.layer].law, area, area_slope, radius).radial_stress;
+  return result;
 }
 
-RingResponse CompressibleRing::respond(double lumen_stretch, std::span<const double> places,
+RingResponse CompressibleRing::respond(LumenStretch lumen_stretch, std::span<const double> places,
                                        bool derivatives) const {
+  using D = Dual<double, 1>;
   const Solution solution = solve(lumen_stretch);
-  const std::vector<double>& u = solution.displacement;
   System system;
   assemble(merged_, solution, system);
   const std::size_t free = system.residual.size();
   if (!system.tangent.factorise())
     throw SolverFailure(
-        fmt::format("the wall's equilibrium is singular at lumen stretch {:.6g}", lumen_stretch));
-
-  // Along the curve of equilibria the free nodes follow the inner one: K_ff du_f/du_i = -K_fi.
-  const double inner_radius = lumen_stretch * ring_.inner_radius;
-  std::vector<double> follow(free);
-  for (std::size_t k = 0; k < free; ++k) follow[k] = -system.inner_column[k];
-  system.tangent.solve(follow);
-  RingResponse response;
-  response.pressure = system.reaction / inner_radius;
-  response.pressure_slope =
-      (system.reaction_along(1.0, follow) - response.pressure) / inner_radius * ring_.inner_radius;
-
-  const auto state_with_stress = [&]<class P>(const Ring<P>& ring, const std::vector<P>& displacement,
-                                              double xi) {
-    WallState<P> s = state(ring, solution, displacement, xi);
-    const auto gradient = Radial::gradient(s.displacement, s.radial_slope, ring.radius(xi));
-    const auto& law = ring.layers[solution.mesh[interval_at(solution.mesh, xi)].layer].law;
-    s.radial_stress = cauchy_stress(wall::piola(law, gradient, Radial::axes()), gradient)(0, 0);
-    return s;
+        fmt::format("the wall's equilibrium is singular at lumen stretch {:.6g}", lumen_stretch.value()));
+  const auto nodal_along = [&](std::span<const double> change) {
+    std::vector<D> nodal(solution.nodal.begin(), solution.nodal.end());
+    for (std::size_t k = 0; k < free; ++k) nodal[k + 1].derivative[0] = change[k];
+    return nodal;
   };
-  for (const double xi : places) response.states.push_back(state_with_stress(ring_, u, xi));
-  std::vector<double> rates{ring_.inner_radius};
-  for (const double f : follow) rates.push_back(f * ring_.inner_radius);
-  for (const double xi : places) response.state_rates.push_back(state(ring_, solution, rates, xi));
+
+  RingResponse response;
+  response.pressure = system.pressure;
+  for (const double xi : places)
+    response.states.push_back(state(ring_, solution, solution.inner, solution.nodal, xi));
+
+  // Along the curve of equilibria the free nodes follow v_i: K dw = -d(residual)/dv_i.
+  std::vector<double> follow(free);
+  for (std::size_t k = 0; k < free; ++k) follow[k] = -system.by_inner[k];
+  system.tangent.solve(follow);
+  const double area_by_stretch = lumen_stretch.value() * ring_.inner_radius * ring_.inner_radius;
+  response.pressure_slope = system.pressure_along(1.0, follow) * area_by_stretch;
+  {
+    const auto nodal = nodal_along(follow);
+    for (const double xi : places) {
+      const D inner(solution.inner, {1.0});
+      const auto s = state(ring_, solution, inner, nodal, xi);
+      response.state_rates.push_back({s.displacement.derivative[0] * area_by_stretch,
+                                      s.radial_slope.derivative[0] * area_by_stretch, 0.0});
+    }
+  }
   if (!derivatives) return response;
 
-  using D = Dual<double, 1>;
   for (const Seeded& ring : seeded_) {
-    const D inner = (lumen_stretch - 1) * ring.inner_radius;
+    const D inner = inner_area(ring, lumen_stretch);
     const Residual<D> r = residual(ring, solution, inner);
-    std::vector<double> du(free);
-    for (std::size_t k = 0; k < free; ++k) du[k] = -r.nodal[k + 1].derivative[0];
-    system.tangent.solve(du);
-    const double reaction = r.reaction.derivative[0] + system.reaction_along(0.0, du);
-    response.pressure_derivatives.push_back(
-        (reaction - response.pressure * lumen_stretch * ring.inner_radius.derivative[0]) / inner_radius);
-    std::vector<D> displacement(u.size());
-    displacement[0] = inner;
-    for (std::size_t k = 0; k < free; ++k) displacement[k + 1] = D(u[k + 1], {du[k]});
+    std::vector<double> change(free);
+    for (std::size_t k = 0; k < free; ++k) change[k] = -r.nodal[k + 1].derivative[0];
+    system.tangent.solve(change);
+    response.pressure_derivatives.push_back(r.pressure.derivative[0] + system.pressure_along(0.0, change));
+    const auto nodal = nodal_along(change);
     auto& states = response.state_derivatives.emplace_back();
     for (const double xi : places) {
-      const WallState<D> s = state_with_stress(ring, displacement, xi);
+      const WallState<D> s = state(ring, solution, inner, nodal, xi);
       states.push_back(
           {s.displacement.derivative[0], s.radial_slope.derivative[0], s.radial_stress.derivative[0]});
     }

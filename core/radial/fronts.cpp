@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <tuple>
 
 #include "core/frame.hpp"
 #include "core/root.hpp"
@@ -171,6 +172,43 @@ std::vector<Interval> radial_mesh(const std::vector<double>& boundaries, const s
     if (is_boundary && layer + 2 < boundaries.size()) ++layer;
   }
   return mesh;
+}
+
+std::vector<Interval> refined_for(const Ring<double>& ring, const std::vector<Interval>& mesh) {
+  constexpr double greatest_ratio = 1.35;
+  std::vector<Interval> result;
+  for (const Interval& cell : mesh) {
+    const double inner = ring.radius(cell.lower), ratio = ring.radius(cell.upper) / inner;
+    const int parts = std::max(1, static_cast<int>(std::ceil(std::log(ratio) / std::log(greatest_ratio))));
+    double lower = cell.lower;
+    for (int k = 1; k <= parts; ++k) {
+      const double radius = inner * std::pow(ratio, static_cast<double>(k) / parts);
+      const double upper = k == parts ? cell.upper : (radius - ring.inner_radius) / ring.thickness;
+      result.push_back({lower, upper, cell.layer});
+      lower = upper;
+    }
+  }
+  return result;
+}
+
+std::vector<Front> FrontSearch::next(const std::vector<Front>& put, const std::vector<Front>& found) {
+  std::vector<Front> result = found;
+  if (put.size() != found.size()) {
+    brackets_.clear();
+    is_closed_ = false;
+    return result;
+  }
+  brackets_.resize(found.size(), {-1.0, 2.0});
+  is_closed_ = true;
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    auto& [lower, upper] = brackets_[k];
+    (found[k].xi > put[k].xi ? lower : upper) = put[k].xi;
+    // What lies between can have changed with the other fronts.
+    if (!(lower < upper)) std::tie(lower, upper) = std::pair(-1.0, 2.0);
+    if (!(found[k].xi > lower && found[k].xi < upper)) result[k].xi = 0.5 * (lower + upper);
+    is_closed_ &= upper - lower < found[k].tolerance;
+  }
+  return result;
 }
 
 bool has_end_near(const std::vector<Interval>& mesh, const Front& front) {

@@ -58,6 +58,29 @@ MovingInterval<P> moved_with_layers(const Ring<P>& ring, const std::vector<doubl
 /// Elements that end at the layer boundaries and at the fronts.
 std::vector<Interval> radial_mesh(const std::vector<double>& boundaries, const std::vector<Front>& fronts);
 
+/// Elements of the same ends and so many more that none spans radii of a greater ratio than elements resolve
+/// fields in 1/R with. Their layers are kept.
+std::vector<Interval> refined_for(const Ring<double>& ring, const std::vector<Interval>& mesh);
+
+/// Where elements are to end so that fronts are found where they end. A front is found in a solution on a
+/// mesh that ends at a guess of it; the slopes on both sides of that end differ by the error of the
+/// discretisation, so that a front can be found before the end where it is put behind and behind where it is
+/// put before. It is then closed in upon between the two.
+class FrontSearch {
+ public:
+  /// What is found where the elements end at `put`, to where they are to end next.
+  std::vector<Front> next(const std::vector<Front>& put, const std::vector<Front>& found);
+  /// All fronts are enclosed more closely than they have to be known.
+  bool is_closed() const { return is_closed_; }
+
+ private:
+  struct Bracket {
+    double lower, upper;
+  };
+  std::vector<Bracket> brackets_;
+  bool is_closed_ = false;
+};
+
 /// True when an element of the mesh ends at the front, as closely as it has to.
 bool has_end_near(const std::vector<Interval>& mesh, const Front& front);
 

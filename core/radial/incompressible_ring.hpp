@@ -16,20 +16,20 @@ class IncompressibleRing final : public RingModel {
  public:
   IncompressibleRing(Ring<double> ring, std::vector<Seeded> seeded, int points = 12);
 
-  RingResponse respond(double lumen_stretch, std::span<const double> places, bool derivatives) const override;
+  RingResponse respond(LumenStretch lumen_stretch, std::span<const double> places,
+                       bool derivatives) const override;
   const Ring<double>& ring() const override { return ring_; }
   std::span<const Seeded> seeded() const override { return seeded_; }
 
  private:
-  /// An interval of the mesh as it moves with the lumen stretch and the parameters: boundaries between
+  /// An interval of the mesh as it moves with the lumen strain and the parameters: boundaries between
   /// layers follow their shares, and fronts their threshold where the stress jumps there (elsewhere it
   /// is continuous, and where the integral is split does not matter).
   template <class P, class S>
-  MovingInterval<S> moved(const Ring<P>& ring, const S& lumen_stretch, const Interval& cell) const;
+  MovingInterval<S> moved(const Ring<P>& ring, const S& lumen_strain, const Interval& cell) const;
   /// Integral of the deviatoric term from the lumen to xi = end.
   template <class P, class S>
-  S integral(const Ring<P>& ring, const S& lumen_stretch, const std::vector<Interval>& mesh,
-             double end) const;
+  S integral(const Ring<P>& ring, const S& lumen_strain, const std::vector<Interval>& mesh, double end) const;
 
   Ring<double> ring_;
   std::vector<Seeded> seeded_;

@@ -48,6 +48,23 @@ struct Ring {
   }
 };
 
+/// How far the lumen is opened: its radius over the unloaded one. Kept as the strain, stretch - 1, which a
+/// stiff wall has too little of to be told from the round-off of a number near 1.
+class LumenStretch {
+ public:
+  LumenStretch(double stretch) : strain_(stretch - 1) {}  // NOLINT(google-explicit-constructor): a number
+  static LumenStretch of_strain(double strain) {
+    LumenStretch stretch(1.0);
+    stretch.strain_ = strain;
+    return stretch;
+  }
+  double strain() const { return strain_; }
+  double value() const { return 1 + strain_; }
+
+ private:
+  double strain_;
+};
+
 /// State of the wall at one place, P as in Ring.
 template <class P>
 struct WallState {
@@ -78,7 +95,7 @@ class RingModel {
   /// Equilibrium with the inner surface at radius lumen_stretch * inner_radius, and the states at
   /// `places` (xi in [0, 1]). With `derivatives`, those with respect to the parameters as well.
   /// Throws SolverFailure when there is none or it is not found; the message says why.
-  virtual RingResponse respond(double lumen_stretch, std::span<const double> places,
+  virtual RingResponse respond(LumenStretch lumen_stretch, std::span<const double> places,
                                bool derivatives) const = 0;
 
   /// Relative accuracy of the responses; finer detail in them is noise.

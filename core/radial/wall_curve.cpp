@@ -23,6 +23,10 @@ constexpr double greatest_piece = 0.2;
 /// Pieces are not split below this: a kink that the thresholds do not know (exponent 1 lingers at its
 /// threshold) is then met to within the square of it.
 constexpr double least_piece = 2e-3;
+/// Nor below this where the wall ceases to have an equilibrium.
+constexpr double least_foothold = 1e-5;
+/// Of the channels, the slope of pressure stands for itself.
+constexpr int slope_channel = 1;
 
 /// Chebyshev nodes of the first kind on [-1, 1]; no piece is evaluated at its very ends.
 double node(int k) {
@@ -57,12 +61,12 @@ WallCurve::WallCurve(std::unique_ptr<const RingModel> model, std::vector<double>
     : model_(std::move(model)), places_(std::move(places)) {
   find_thresholds();
   double lower = least_stretch;
+  edges_.insert(lower);
   breaks_.push_back(greatest_stretch);
   for (const double end : breaks_) {
     if (!(end > lower + 1e-9)) continue;
     const int parts = static_cast<int>(std::ceil((end - lower) / greatest_piece));
-    for (int k = 1; k <= parts; ++k)
-      cells_.push_back({k == parts ? end : lower + (end - lower) * k / parts, {}});
+    for (int k = 1; k <= parts; ++k) edges_.insert(k == parts ? end : lower + (end - lower) * k / parts);
     lower = end;
   }
 }
@@ -186,29 +190,36 @@ std::vector<double> WallCurve::threshold_derivatives(std::size_t layer, std::siz
   return derivatives;
 }
 
-void WallCurve::build(double lower, double upper, Cell& cell) const {
+std::vector<double> WallCurve::values_at(double stretch) const {
+  const RingResponse response = respond(stretch, places_, !model_->seeded().empty());
+  std::vector<double> values(channels(), 0.0);
+  values[0] = response.pressure;
+  values[slope_channel] = response.pressure_slope;
+  for (std::size_t p = 0; p < places_.size(); ++p) {
+    values[2 + 2 * p] = response.states[p].displacement;
+    values[3 + 2 * p] = response.states[p].radial_slope;
+  }
+  for (std::size_t q = 0; q < response.pressure_derivatives.size(); ++q) {
+    const std::size_t first = parameter_channel(static_cast<int>(q));
+    values[first] = response.pressure_derivatives[q];
+    for (std::size_t p = 0; p < places_.size(); ++p) {
+      values[first + 1 + 2 * p] = response.state_derivatives[q][p].displacement;
+      values[first + 2 + 2 * p] = response.state_derivatives[q][p].radial_slope;
+    }
+  }
+  return values;
+}
+
+std::optional<WallCurve::Piece> WallCurve::piece_between(double lower, double upper) const {
+  if (at_rest_.empty()) at_rest_ = values_at(1.0);
   const int count = channels();
   const int places = static_cast<int>(places_.size());
-  const bool derivatives = !model_->seeded().empty();
   std::vector<double> values(static_cast<std::size_t>(count) * terms);
   for (int k = 0; k < terms; ++k) {
     const double stretch = 0.5 * (lower + upper) + 0.5 * (upper - lower) * node(k);
-    const RingResponse response = respond(stretch, places_, derivatives);
-    const auto set = [&](int channel, double value) { values[channel * terms + k] = value; };
-    set(0, response.pressure);
-    set(1, response.pressure_slope);
-    for (int p = 0; p < places; ++p) {
-      set(2 + 2 * p, response.states[p].displacement);
-      set(3 + 2 * p, response.states[p].radial_slope);
-    }
-    for (std::size_t q = 0; q < response.pressure_derivatives.size(); ++q) {
-      const int first = parameter_channel(static_cast<int>(q));
-      set(first, response.pressure_derivatives[q]);
-      for (int p = 0; p < places; ++p) {
-        set(first + 1 + 2 * p, response.state_derivatives[q][p].displacement);
-        set(first + 2 + 2 * p, response.state_derivatives[q][p].radial_slope);
-      }
-    }
+    const std::vector<double> here = values_at(stretch);
+    for (int c = 0; c < count; ++c)
+      values[c * terms + k] = c == slope_channel ? here[c] : (here[c] - at_rest_[c]) / (stretch - 1);
   }
   Piece piece{lower, upper, std::vector<double>(values.size())};
   for (int c = 0; c < count; ++c) {
@@ -220,23 +231,42 @@ void WallCurve::build(double lower, double upper, Cell& cell) const {
   }
 
   // Pressure, displacements and slopes decide; derivatives with respect to parameters are as smooth.
-  const double width = upper - lower;
+  double least = std::abs(values[0]), greatest = least;
+  for (int k = 1; k < terms; ++k) {
+    least = std::min(least, std::abs(values[k]));
+    greatest = std::max(greatest, std::abs(values[k]));
+  }
+  // Pressure is as good where it is low as where it is high, unless it changes its sign.
+  const double of_pressure = std::max(least, 1e-3 * greatest);
   double tail = 0;
   for (int c = 0; c < 2 + 2 * places; ++c) {
-    double scale = c == 0       ? 0.0
-                   : c == 1     ? 1e3 * std::abs(piece.coefficients[terms])
-                   : c % 2 == 0 ? model_->ring().inner_radius
-                                : 10.0;
-    if (c == 0) scale = std::abs(piece.coefficients[0]) + width * std::abs(piece.coefficients[terms]);
     const double* series = &piece.coefficients[c * terms];
+    const double scale = c == 0               ? of_pressure
+                         : c == slope_channel ? 1e3 * std::abs(series[0])
+                         : c % 2 == 0         ? model_->ring().inner_radius
+                                              : 10.0;
     tail = std::max(tail, (std::abs(series[terms - 1]) + std::abs(series[terms - 2])) / scale);
   }
-  if (tail > model_->accuracy() && width > least_piece) {
-    const double middle = 0.5 * (lower + upper);
-    build(lower, middle, cell);
-    build(middle, upper, cell);
-  } else {
-    cell.pieces.push_back(std::move(piece));
+  if (tail > model_->accuracy() && upper - lower > least_piece) return std::nullopt;
+  return piece;
+}
+
+const WallCurve::Piece& WallCurve::build_at(double stretch) const {
+  bool has_equilibrium = false;
+  while (true) {
+    const auto end = std::max(edges_.lower_bound(stretch), std::next(edges_.begin()),
+                              [](const auto& a, const auto& b) { return *a < *b; });
+    const double lower = *std::prev(end), upper = *end;
+    try {
+      if (auto piece = piece_between(lower, upper))
+        return pieces_.emplace(upper, std::move(*piece)).first->second;
+    } catch (const SolverFailure&) {
+      // Somewhere in the piece, which says nothing about the stretch that is asked for.
+      if (upper - lower < least_foothold) throw;
+      if (!has_equilibrium) respond(stretch, {}, false);
+      has_equilibrium = true;
+    }
+    edges_.insert(0.5 * (lower + upper));
   }
 }
 
@@ -246,20 +276,15 @@ const WallCurve::Piece& WallCurve::piece_at(double stretch) const {
     throw SolverFailure(
         fmt::format("the lumen stretch {:.6g} left the range {} to {} that the wall is computed for", stretch,
                     least_stretch, greatest_stretch));
-  const auto found = std::lower_bound(cells_.begin(), cells_.end(), stretch,
-                                      [](const Cell& cell, double s) { return cell.upper < s; });
-  Cell& cell = *found;
-  if (cell.pieces.empty())
-    build(found == cells_.begin() ? least_stretch : std::prev(found)->upper, cell.upper, cell);
-  const auto it = std::lower_bound(cell.pieces.begin(), cell.pieces.end(), stretch,
-                                   [](const Piece& piece, double s) { return piece.upper < s; });
-  last_ = it == cell.pieces.end() ? &cell.pieces.back() : &*it;
+  const auto found = pieces_.lower_bound(stretch);
+  const bool is_there = found != pieces_.end() && found->second.lower <= stretch;
+  last_ = is_there ? &found->second : &build_at(stretch);
   return *last_;
 }
 
-double WallCurve::evaluate(double stretch, int channel) const {
-  const Piece& piece = piece_at(stretch);
-  const double x = (2 * stretch - piece.lower - piece.upper) / (piece.upper - piece.lower);
+double WallCurve::evaluate(LumenStretch stretch, int channel) const {
+  const Piece& piece = piece_at(stretch.value());
+  const double x = (2 * stretch.value() - piece.lower - piece.upper) / (piece.upper - piece.lower);
   const double* series = &piece.coefficients[static_cast<std::size_t>(channel) * terms];
   double b1 = 0, b2 = 0;
   for (int j = terms - 1; j > 0; --j) {
@@ -267,52 +292,37 @@ double WallCurve::evaluate(double stretch, int channel) const {
     b2 = b1;
     b1 = b;
   }
-  return x * b1 - b2 + series[0];
+  const double value = x * b1 - b2 + series[0];
+  return channel == slope_channel ? value : at_rest_[channel] + stretch.strain() * value;
 }
 
-double WallCurve::differentiate(double stretch, int channel) const {
-  const Piece& piece = piece_at(stretch);
+double WallCurve::differentiate(LumenStretch stretch, int channel) const {
+  const Piece& piece = piece_at(stretch.value());
   const double scale = 2 / (piece.upper - piece.lower);
-  const double x = 0.5 * scale * (2 * stretch - piece.lower - piece.upper);
+  const double x = 0.5 * scale * (2 * stretch.value() - piece.lower - piece.upper);
   const double* series = &piece.coefficients[static_cast<std::size_t>(channel) * terms];
-  // T_j' = j U_(j-1), summed by Clenshaw's recurrence of the second kind.
-  double b1 = 0, b2 = 0;
+  // T_j' = j U_(j-1), and both are summed by Clenshaw's recurrence.
+  double b1 = 0, b2 = 0, c1 = 0, c2 = 0;
   for (int j = terms - 1; j > 0; --j) {
     const double b = 2 * x * b1 - b2 + j * series[j];
+    const double c = 2 * x * c1 - c2 + series[j];
     b2 = b1;
     b1 = b;
+    c2 = c1;
+    c1 = c;
   }
-  return b1 * scale;
+  return x * c1 - c2 + series[0] + stretch.strain() * b1 * scale;
 }
 
 void WallCurve::prepare(double from, double to) const {
-  double lower = least_stretch;
-  for (const Cell& cell : cells_) {
-    if (cell.upper > from && lower < to) piece_at(0.5 * (lower + cell.upper));
-    lower = cell.upper;
-  }
-}
-
-WallCurve::Equilibrium WallCurve::greatest_pressure() const {
-  Equilibrium greatest{1.0, pressure(1.0)};
-  constexpr int samples = 16;
-  for (const Cell& cell : cells_) {
-    for (const Piece& piece : cell.pieces) {
-      for (int k = 0; k <= samples; ++k) {
-        const double stretch = piece.lower + (piece.upper - piece.lower) * k / samples;
-        if (stretch >= greatest_stretch) continue;
-        const double p = pressure(stretch);
-        if (p > greatest.pressure) greatest = {stretch, p};
-      }
-    }
-  }
-  return greatest;
+  for (double stretch = from; stretch < to;) stretch = std::nextafter(piece_at(stretch).upper, 5.0);
 }
 
 double WallCurve::stretch_at(double target) const {
   const auto gap = [&](double stretch) { return pressure(stretch) - target; };
   // The nearest equilibrium to rest on the side that the pressure pushes to.
-  const double step = target >= pressure(1.0) ? 0.02 : -0.02;
+  constexpr double longest_step = 0.02, shortest_step = 1e-4;
+  double step = target >= pressure(1.0) ? longest_step : -longest_step;
   double here = 1.0, highest = 1.0;
   while (true) {
     const double next = here + step;
@@ -321,8 +331,17 @@ double WallCurve::stretch_at(double target) const {
           "the wall has no equilibrium at a pressure of {:.6g} dyn/cm2 between lumen stretches {} and {}: "
           "it carries at most {:.6g} dyn/cm2, at lumen stretch {:.4g}",
           target, least_stretch, greatest_stretch, pressure(highest), highest));
-    if ((gap(next) > 0) != (gap(here) > 0) || gap(next) == 0)
-      return find_root(gap, std::min(here, next), std::max(here, next), 1e-14);
+    try {
+      if ((gap(next) > 0) != (gap(here) > 0) || gap(next) == 0)
+        return find_root(gap, std::min(here, next), std::max(here, next), 1e-14);
+    } catch (const SolverFailure& failure) {
+      step *= 0.5;
+      if (std::abs(step) > shortest_step) continue;
+      throw SolverFailure(fmt::format(
+          "equilibria of the wall are found up to {:.6g} dyn/cm2, at lumen stretch {:.4g}, and not "
+          "at {:.6g} dyn/cm2: {}",
+          pressure(here), here, target, failure.what()));
+    }
     if (step * (pressure(next) - pressure(highest)) > 0) highest = next;
     here = next;
   }

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "core/radial/ring.hpp"
@@ -20,8 +22,11 @@ struct Threshold {
 /// Pressure and wall states as functions of the lumen stretch, tabulated once and then evaluated in
 /// nanoseconds: piecewise Chebyshev series whose pieces end where a recruitment front enters or
 /// leaves the wall or passes a place, since derivatives jump there. Pieces are made when first asked
-/// for and split until the last coefficients are below the accuracy of the
-/// model.
+/// for and are as narrow as it takes for the last coefficients to be below the accuracy of the model,
+/// and for the wall to have an equilibrium throughout.
+///
+/// A quantity f is tabulated as (f(s) - f(1))/(s - 1), so that it keeps its relative accuracy at the
+/// strains of any stiff wall.
 ///
 /// Not safe for use by several threads at once (the table grows on reading).
 class WallCurve {
@@ -33,31 +38,30 @@ class WallCurve {
   static constexpr double least_stretch = 0.3;
   static constexpr double greatest_stretch = 4.0;
 
-  double pressure(double stretch) const { return evaluate(stretch, 0); }
-  double pressure_slope(double stretch) const { return evaluate(stretch, 1); }
-  double displacement(double stretch, int place) const { return evaluate(stretch, 2 + 2 * place); }
-  double radial_slope(double stretch, int place) const { return evaluate(stretch, 3 + 2 * place); }
+  double pressure(LumenStretch stretch) const { return evaluate(stretch, 0); }
+  double pressure_slope(LumenStretch stretch) const { return evaluate(stretch, 1); }
+  double displacement(LumenStretch stretch, int place) const { return evaluate(stretch, 2 + 2 * place); }
+  double radial_slope(LumenStretch stretch, int place) const { return evaluate(stretch, 3 + 2 * place); }
   /// d/d(stretch) of a place's displacement and radial slope.
-  double displacement_rate(double stretch, int place) const { return differentiate(stretch, 2 + 2 * place); }
-  double radial_slope_rate(double stretch, int place) const { return differentiate(stretch, 3 + 2 * place); }
+  double displacement_rate(LumenStretch stretch, int place) const {
+    return differentiate(stretch, 2 + 2 * place);
+  }
+  double radial_slope_rate(LumenStretch stretch, int place) const {
+    return differentiate(stretch, 3 + 2 * place);
+  }
   /// The same quantities' derivatives with respect to parameter number k, at fixed lumen stretch.
-  double pressure_derivative(double stretch, int k) const { return evaluate(stretch, parameter_channel(k)); }
-  double displacement_derivative(double stretch, int k, int place) const {
+  double pressure_derivative(LumenStretch stretch, int k) const {
+    return evaluate(stretch, parameter_channel(k));
+  }
+  double displacement_derivative(LumenStretch stretch, int k, int place) const {
     return evaluate(stretch, parameter_channel(k) + 1 + 2 * place);
   }
-  double radial_slope_derivative(double stretch, int k, int place) const {
+  double radial_slope_derivative(LumenStretch stretch, int k, int place) const {
     return evaluate(stretch, parameter_channel(k) + 2 + 2 * place);
   }
 
   /// The lumen stretch in equilibrium with a pressure. Throws SolverFailure when there is none.
   double stretch_at(double pressure) const;
-
-  /// A lumen stretch and the pressure that it takes, dyn/cm2.
-  struct Equilibrium {
-    double stretch, pressure;
-  };
-  /// The equilibrium of greatest pressure among the stretches tabulated so far.
-  Equilibrium greatest_pressure() const;
 
   /// Makes the pieces between two stretches, so that later queries only evaluate.
   void prepare(double from, double to) const;
@@ -70,22 +74,23 @@ class WallCurve {
 
  private:
   struct Piece {
-    double lower, upper;
-    std::vector<double> coefficients;  ///< [channel][term]
-  };
-  /// A stretch interval without thresholds inside, and its pieces once they have been asked for.
-  struct Cell {
+    double lower;
     double upper;
-    std::vector<Piece> pieces;
+    std::vector<double> coefficients;  ///< [channel][term]
   };
   struct Candidate;
 
   int channels() const;
   int parameter_channel(int k) const;
   const Piece& piece_at(double stretch) const;
-  void build(double lower, double upper, Cell& cell) const;
-  double evaluate(double stretch, int channel) const;
-  double differentiate(double stretch, int channel) const;
+  const Piece& build_at(double stretch) const;
+  /// None when the piece is too wide for the model's accuracy. Throws SolverFailure where the wall has no
+  /// equilibrium somewhere in it.
+  std::optional<Piece> piece_between(double lower, double upper) const;
+  /// All channels at a stretch, those that take no part being 0.
+  std::vector<double> values_at(double stretch) const;
+  double evaluate(LumenStretch stretch, int channel) const;
+  double differentiate(LumenStretch stretch, int channel) const;
   void find_thresholds();
   std::vector<Candidate> candidates(const std::vector<double>& boundaries) const;
   /// Lumen stretch at which a family reaches its threshold at xi; none when it does not in the range.
@@ -98,7 +103,9 @@ class WallCurve {
   std::vector<double> places_;
   std::vector<Threshold> thresholds_;
   std::vector<double> breaks_;
-  mutable std::vector<Cell> cells_;
+  mutable std::vector<double> at_rest_;     ///< the channels at stretch 1, once they have been asked for
+  mutable std::set<double> edges_;          ///< that pieces end at
+  mutable std::map<double, Piece> pieces_;  ///< by their upper end
   mutable const Piece* last_ = nullptr;
   mutable long solves_ = 0;
 };

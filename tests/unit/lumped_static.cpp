@@ -108,6 +108,7 @@ lumped::System system_of(const lumped::Network& network) {
   system.unknowns = network.unknowns();
   system.bandwidth = network.bandwidth();
   system.scales = network.scales();
+  system.magnitudes = [&](const double* y, double* result) { network.magnitudes(y, result); };
   system.rate = [&](double t, const double* y, double* rate) { network.rate(t, y, rate); };
   system.rate_derivative = [&](double t, const double* y, const double* dy, int k, double* result) {
     network.rate_derivative(t, y, dy, k, result);
@@ -203,6 +204,7 @@ lumped::System scalar_system(const std::function<double(double y)>& rate,
   lumped::System system;
   system.unknowns = 1;
   system.scales = {1};
+  system.magnitudes = [](const double* y, double* result) { *result = 0.01 + std::abs(*y); };
   system.rate = [=](double, const double* y, double* result) { *result = rate(*y); };
   // Parameter 0 adds to the rate.
   system.rate_derivative = [=](double, const double* y, const double* dy, int k, double* result) {

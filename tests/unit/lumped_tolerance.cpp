@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <iostream>
+#include <numbers>
 
 #include "core/error.hpp"
 #include "tests/support/lumped_runs.hpp"
@@ -99,6 +100,48 @@ TEST(LumpedTolerance, OfOtherNetworks) {
     std::cout << base[0] << ": 1e-9 moves " << gap.size << " (" << gap.where << ")\n";
     EXPECT_LT(gap.size, 1e-5) << base[0] << ": " << gap.where;
   }
+}
+
+struct Stiffness {
+  const char* name;
+  std::vector<std::string> overrides;
+};
+class AnyStiffness : public testing::TestWithParam<Stiffness> {};
+
+// The tolerance is held in pressure as in area, of walls that move by 1e-8 of their radius and of such as a
+// tether has to hold.
+TEST_P(AnyStiffness, KeepsTheTolerance) {
+  Result whole = run_lumped(GetParam().overrides);
+  const Result finest = run_lumped(joined(GetParam().overrides, {"accuracy.tolerance=1e-9"}));
+  const Gap gap = largest_move(whole, finest);
+  std::cout << GetParam().name << ": 1e-9 moves " << gap.size << " (" << gap.where << ")\n";
+  EXPECT_LT(gap.size, 1e-7) << gap.where;
+}
+INSTANTIATE_TEST_SUITE_P(
+    Lumped, AnyStiffness,
+    testing::Values(Stiffness{"shear_1e12", {"wall.law=neo-Hookean", "wall.shear_modulus=1e12"}},
+                    Stiffness{
+                        "shear_1e12_incompressible",
+                        {"wall.law=neo-Hookean", "wall.shear_modulus=1e12", "wall.incompressible=true"}},
+                    Stiffness{"young_1e12", {"wall.law=linear-elastic", "wall.young_modulus=1e12"}},
+                    Stiffness{"exponential_1e12", {"wall.law=EXP1", "wall.stiffness=1e12"}},
+                    Stiffness{"steep_exponential", {"wall.law=EXP1", "wall.stiffening=100"}},
+                    Stiffness{"bulk_1e13", {"wall.law=EXP1", "wall.bulk_modulus=1e13"}},
+                    Stiffness{"shear_1e3", {"wall.law=neo-Hookean", "wall.shear_modulus=1e3"}},
+                    Stiffness{"chain_1e12",
+                              {"wall.law=neo-Hookean", "wall.shear_modulus=1e12", "lumped.compartments=40"}}),
+    [](const auto& instance) { return std::string(instance.param.name); });
+
+// A wall that stiff is a rigid pipe: p = (R + R_p/2) Q with Poiseuille's R_p = 8 mu l/(pi r^4), to the 1e-7
+// that it gives way by.
+TEST(LumpedTolerance, AStiffWallIsARigidPipe) {
+  const Result run = run_lumped({"wall.law=neo-Hookean", "wall.shear_modulus=1e12"});
+  const double half = 4 * 0.035 * 0.66 / (std::numbers::pi * std::pow(0.033, 4));
+  const auto &pressure = test_support::column(run.observables, "pressure"),
+             &inflow = test_support::column(run.observables, "inflow");
+  const double range = test_support::range(pressure);
+  for (std::size_t k = 0; k < pressure.size(); ++k)
+    EXPECT_NEAR(pressure[k], (1.032e6 + half) * inflow[k], 1e-6 * range) << "row " << k;
 }
 
 // The output grid only looks: it must not steer the steps.

@@ -68,6 +68,55 @@ TEST(RadialOracle, EverySharpnessAndTheStep) {
   }
 }
 
+// Walls whose equilibria were once missed from some stretch on, at stretches before, about and beyond it:
+// thick ones, whose fields need more than one element, and fronts that move along the wall by their own
+// slopes' errors, since the fibre stretch hardly changes through it.
+TEST(RadialOracle, WallsWhoseFrontsAreHardToFind) {
+  struct Wall {
+    std::vector<std::string> overrides;
+    FiberTissue tissue;
+    double thickness;
+    std::vector<double> outer_displacements;
+  };
+  const std::vector<Wall> walls{
+      {{"geometry.thickness=0.1"}, {}, 0.1, {0.0045, 0.0051, 0.00515, 0.0053, 0.008, 0.02}},
+      {{"geometry.thickness=0.2"}, {}, 0.2, {0.0025, 0.0028, 0.004, 0.01}},
+      {{"wall.fiber_stiffening=10"}, {.fiber_gamma = 10}, thickness, {0.0145, 0.0149, 0.0151, 0.016}},
+      {{"wall.fiber_angle=87"}, {.angle = 87}, thickness, {0.003, 0.00395, 0.0042, 0.01, 0.016}},
+      {{"wall.fiber_angle=88"}, {.angle = 88}, thickness, {0.0021, 0.0022, 0.004, 0.016}},
+      {{"wall.fiber_angle=88.5"}, {.angle = 88.5}, thickness, {0.0013, 0.00132, 0.004, 0.016}},
+      {{"wall.fiber_angle=89.5"}, {.angle = 89.5}, thickness, {0.0003, 0.004, 0.016}}};
+  for (const Wall& wall : walls) {
+    SCOPED_TRACE(wall.overrides[0]);
+    const auto model = model_with(wall.overrides);
+    for (const double u : wall.outer_displacements)
+      expect_same(test_support::shoot(wall.tissue, inner_radius, wall.thickness, tether, "normal", u), *model,
+                  u, 1e-7);
+  }
+}
+
+// The bulk modulus may be any: p/kappa is then all that is left of the compression.
+TEST(RadialOracle, AnyBulkModulus) {
+  for (const char* kappa : {"1e6", "1e8", "1e10"}) {
+    const auto model = model_with({std::string("wall.bulk_modulus=") + kappa});
+    for (const double u : {0.002, 0.012, 0.018}) {
+      const FiberTissue tissue{.kappa = std::stod(kappa)};
+      // Shooting takes J - 1 from its stretches: 1e-16 kappa is its round-off.
+      expect_same(test_support::shoot(tissue, inner_radius, thickness, tether, "normal", u), *model, u,
+                  1e-8 + 1e-16 * std::stod(kappa));
+    }
+  }
+  // The difference to the incompressible ring falls with 1/kappa without a floor.
+  const double exact = model_with({"wall.incompressible=true"})->respond(1.6, {}, false).pressure;
+  double before = model_with({"wall.bulk_modulus=1e9"})->respond(1.6, {}, false).pressure / exact - 1;
+  for (const char* kappa : {"1e10", "1e11", "1e12", "1e13"}) {
+    const double gap =
+        model_with({std::string("wall.bulk_modulus=") + kappa})->respond(1.6, {}, false).pressure / exact - 1;
+    EXPECT_NEAR(gap / before, 0.1, 0.01) << kappa;
+    before = gap;
+  }
+}
+
 // The energy with exponent 1 has stress that all but jumps: the tissue lingers at the threshold, where
 // either method loses digits; 1e-6 is what the two hold together.
 TEST(RadialOracle, ExponentOneWhoseStressJumps) {
