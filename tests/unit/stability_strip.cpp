@@ -294,7 +294,10 @@ TEST(Strip, ConvergesWithTheDegree) {
             .least_mode(wave_number(share), wall_density)
             .eigenvalue.real();
       };
-      const double fine = least(14);
+      // EXP2 is near its threshold at five thicknesses, where rounding leaves 3e-8 of the eigenvalue: a mean.
+      constexpr std::array fine_degrees{12, 13, 14, 15, 16};
+      double fine = 0;
+      for (const int degree : fine_degrees) fine += least(degree) / fine_degrees.size();
       const double at_4 = std::abs(least(4) / fine - 1), at_6 = std::abs(least(6) / fine - 1),
                    at_8 = std::abs(least(8) / fine - 1);
       std::cout << law << ", wave length " << share << " h: " << fine << ", degrees 4, 6, 8 off by " << at_4
