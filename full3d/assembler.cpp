@@ -9,6 +9,8 @@
 #include <stdexcept>
 
 #include "core/coupled/openings.hpp"
+#include "core/error.hpp"
+#include "full3d/solver_options.hpp"
 
 namespace tunica::full3d {
 
@@ -104,6 +106,21 @@ std::string Assembler::compression(const LeastJacobian& least) const {
   return text + "; mesh.motion = \"stiffened\" may bear more";
 }
 
+/// That the linear solver cannot go on for lack of memory, or by what the user's options make of it, is told
+/// with what the run has so far. Other failures are mistakes of the program.
+template <class Work>
+bool solver_failure_of(const SolverChoice& choice, const Work& work) {
+  try {
+    return work();
+  } catch (const PetscFailure& error) {
+    const std::string given = given_options(choice);
+    const bool is_given = given.find_first_not_of(' ') != std::string::npos;
+    if (!is_given && error.code() != PETSC_ERR_MEM && error.code() != PETSC_ERR_LIB) throw;
+    throw SolverFailure(fmt::format("the linear solver failed, {}{}", error.what(),
+                                    is_given ? fmt::format(" (options: {})", given) : ""));
+  }
+}
+
 /// The derivative, whose factors or preconditioner the ranks share.
 class SharedTangent final : public coupled::TangentSolver {
  public:
@@ -113,13 +130,14 @@ class SharedTangent final : public coupled::TangentSolver {
     const LoadedStage at = assembler_.loaded(stage, y);
     if (assembler_.announcer_) assembler_.announcer_->factorise(at, y);
     assembler_.owner_of_factors_ = this;
-    return assembler_.share_.factorise(at, y);
+    return solver_failure_of(assembler_.share_.choice(), [&] { return assembler_.share_.factorise(at, y); });
   }
   bool solve(std::span<double> right_hand_side) override {
     if (assembler_.owner_of_factors_ != this)
       throw std::logic_error("a solution with factors that have been replaced");
     if (assembler_.announcer_) assembler_.announcer_->solve();
-    return assembler_.share_.solve(right_hand_side);
+    return solver_failure_of(assembler_.share_.choice(),
+                             [&] { return assembler_.share_.solve(right_hand_side); });
   }
   long iterations() const override { return assembler_.share_.latest_iterations(); }
   // Factors and preconditioners are made of their matrix alone.

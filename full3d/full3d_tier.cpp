@@ -10,6 +10,7 @@
 #include "core/coupled/vessel_run.hpp"
 #include "core/coupled/wall_strain.hpp"
 #include "core/error.hpp"
+#include "core/memory.hpp"
 #include "core/scene/unused.hpp"
 #include "core/stability/warning.hpp"
 #include "core/threads.hpp"
@@ -18,6 +19,7 @@
 #include "full3d/measures.hpp"
 #include "full3d/memory.hpp"
 #include "full3d/observer.hpp"
+#include "full3d/option_check.hpp"
 #include "full3d/refusal.hpp"
 #include "full3d/solver_options.hpp"
 
@@ -30,10 +32,19 @@ const char* name_of(Sector sector) {
 }
 
 /// Throws InvalidInput for options that no solver can have: before other ranks are told of them.
-SolverChoice tried_solver_of(const Scene& scene) {
-  SolverChoice choice = solver_of(scene);
+SolverChoice tried_solver_of(const Scene& scene, const Setup& setup) {
+  const SolverChoice choice = solver_of(scene);
   check_options(choice);
-  try_options(choice);
+  const Problem& problem = setup.problem;
+  const bool with_blood = problem.mesh.has(Part::blood), lagged_mesh = problem.discretisation.lagged_mesh;
+  const auto try_with = [&](bool lagged) {
+    SolverChoice tried = choice;
+    tried.name = method_for(choice.name, rows_of(problem, layout_of(problem)));
+    try_options(tried, with_blood, lagged);
+  };
+  try_with(lagged_mesh);
+  // Steady states are found with the mesh among the unknowns.
+  if (lagged_mesh && scene.text("time.start") != "rest") try_with(false);
   return choice;
 }
 
@@ -58,7 +69,7 @@ class Full3dVessel final : public coupled::Vessel {
       : scene_(scene),
         ranks_(team.ranks()),
         setup_(setup_in_memory(scene)),
-        solver_(tried_solver_of(scene)),
+        solver_(tried_solver_of(scene, *setup_)),
         assembler_(setup_->problem, team.ranks(), solver_,
                    team.open(scene, setup_->resolution, setup_->problem.discretisation.lagged_mesh)),
         coarser_(scene, *setup_, team),

@@ -4,17 +4,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
 
 #include "core/error.hpp"
+#include "core/memory.hpp"
 
 namespace tunica::full3d {
-
-namespace {
-
-constexpr double gib = 1024.0 * 1024 * 1024;
-
-}  // namespace
 
 double estimated_memory(const std::string& method, int unknowns) {
   const double n = unknowns;
@@ -25,18 +19,6 @@ double estimated_memory(const std::string& method, int unknowns) {
   // Factors as they were measured, and what MUMPS takes besides.
   const double factor_entries = 7.4 * std::pow(n, 1.495);
   return matrix + 1.6 * 8 * factor_entries;
-}
-
-std::optional<double> available_memory() {
-  std::ifstream file("/proc/meminfo");
-  std::string word;
-  while (file >> word)
-    if (word == "MemAvailable:") {
-      double kilobytes = 0;
-      if (file >> kilobytes) return 1024 * kilobytes;
-      break;
-    }
-  return {};
 }
 
 void check_memory(const std::string& method, int unknowns, std::optional<double> available) {

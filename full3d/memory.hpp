@@ -10,9 +10,6 @@ namespace tunica::full3d {
 /// the paper's cylinder (docs/verification/full3d-solvers.md).
 double estimated_memory(const std::string& method, int unknowns);
 
-/// Memory that this machine can still give, bytes; none where the system does not say.
-std::optional<double> available_memory();
-
 /// Throws InvalidInput when the estimate for a method is more than what is available.
 void check_memory(const std::string& method, int unknowns, std::optional<double> available);
 

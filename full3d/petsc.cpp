@@ -12,9 +12,14 @@ namespace tunica::full3d {
 
 void check(PetscErrorCode code, const char* call) {
   if (code == 0) return;
-  const char* text = nullptr;
-  const bool told = PetscErrorMessage(code, &text, nullptr) == 0 && text;
-  throw std::runtime_error(fmt::format("{}: {}", call, told ? text : "failed"));
+  const char* general = nullptr;
+  char* particular = nullptr;
+  if (PetscErrorMessage(code, &general, &particular) != 0) general = nullptr;
+  // What PETSC says of the case may be of several lines, of which the first has the matter.
+  std::string text = particular ? particular : "";
+  text = text.substr(0, text.find('\n'));
+  if (text.empty()) text = general ? general : "failed";
+  throw PetscFailure(fmt::format("{}: {}", call, text), code);
 }
 
 void check_mpi(int code, const char* call) {

@@ -6,12 +6,23 @@
 #define PETSC_HAVE_BROKEN_RECURSIVE_MACRO 1
 #include <petscksp.h>
 
+#include <stdexcept>
 #include <string>
 #include <utility>
 
 namespace tunica::full3d {
 
-/// Throws std::runtime_error naming the call of PETSc that failed and its reason.
+/// A call of PETSc that failed.
+class PetscFailure : public std::runtime_error {
+ public:
+  PetscFailure(const std::string& message, PetscErrorCode code) : std::runtime_error(message), code_(code) {}
+  PetscErrorCode code() const { return code_; }
+
+ private:
+  PetscErrorCode code_;
+};
+
+/// Throws PetscFailure naming the call of PETSc that failed and its reason, in one line.
 void check(PetscErrorCode code, const char* call);
 
 /// Of MPI in the same way. With several processes, which would wait for this one without end, it says so and

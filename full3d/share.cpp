@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/coupled/openings.hpp"
+#include "core/error.hpp"
 #include "core/threads.hpp"
 #include "full3d/partition.hpp"
 #include "full3d/solver_options.hpp"
@@ -182,6 +183,10 @@ bool Share::factorise(const LoadedStage& stage, std::span<const double> y) {
   if (blocks_) blocks_->update(pc, stage.stage.coefficient);
   PCFailedReason reason{};
   check(PCGetFailedReason(pc, &reason), "PCGetFailedReason");
+  if (!ranks_.all(reason != PC_FACTOR_OUTMEMORY))
+    throw SolverFailure(
+        "the factors of the derivative found no memory; write solver.method = \"block\", or ask for fewer "
+        "cells (mesh.*_cells, accuracy.tolerance, or a coarser geometry.file)");
   entries_ = factor_entries(pc);
   return ranks_.all(reason == PC_NOERROR);
 }

@@ -34,7 +34,8 @@ class Share {
   Share& operator=(const Share&) = delete;
 
   LeastJacobian residual(const LoadedStage& stage, std::span<const double> y, std::span<double> residual);
-  /// Computes the matrix and prepares solutions with it. False when it is singular.
+  /// Computes the matrix and prepares solutions with it. False when it is singular. Throws SolverFailure, on
+  /// all ranks, when memory runs out.
   bool factorise(const LoadedStage& stage, std::span<const double> y);
   /// The right-hand side is read, and the solution written, on the leader.
   bool solve(std::span<double> right_hand_side);
@@ -47,6 +48,7 @@ class Share {
   /// Time in residuals and matrices so far, the sums over ranks included, s.
   double assembly_seconds() const { return assembly_seconds_; }
   const std::string& method() const { return choice_.name; }
+  const SolverChoice& choice() const { return choice_; }
   const CellWork& work() const { return *work_; }
   /// Row or column of PETSc's matrix of an unknown, -1 where it is condensed.
   int petsc_index(int unknown) const { return petsc_index_[unknown]; }

@@ -4,14 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstdlib>
 #include <sstream>
-#include <stdexcept>
 #include <string_view>
-
-#include "core/error.hpp"
 
 namespace tunica::embedded {
 std::string_view solver_direct();
@@ -40,6 +36,8 @@ std::string options_in(std::string_view file) {
 /// with their size.
 constexpr double rows_of_part = 2500, rows_of_velocity_part = 80000;
 
+}  // namespace
+
 std::vector<std::string> words_in(const std::string& text) {
   std::istringstream stream(text);
   std::vector<std::string> words;
@@ -47,12 +45,10 @@ std::vector<std::string> words_in(const std::string& text) {
   return words;
 }
 
-/// A name of an option, not a negative number.
-bool is_option(const std::string& word) {
-  return word.size() > 1 && word[0] == '-' && std::isalpha(static_cast<unsigned char>(word[1]));
+std::string given_options(const SolverChoice& choice) {
+  const char* environment = std::getenv("PETSC_OPTIONS");
+  return choice.options + " " + (environment ? environment : "");
 }
-
-}  // namespace
 
 std::string method_for(const std::string& name, int unknowns) {
   constexpr int most_for_direct = 300000;
@@ -78,47 +74,11 @@ void insert_options(const SolverChoice& choice, int rows) {
   } else {
     insert(options_in(embedded::solver_direct()));
   }
-  insert(choice.options);
-  if (const char* environment = std::getenv("PETSC_OPTIONS")) insert(environment);
-}
-
-void try_options(const SolverChoice& choice) {
-  insert_options(choice, 1);
-  OwnedMatrix one;
-  OwnedSolver solver;
-  check(MatCreateSeqAIJ(PETSC_COMM_SELF, 1, 1, 1, nullptr, one.put()), "MatCreateSeqAIJ");
-  check(MatSetValue(one.get(), 0, 0, 1, INSERT_VALUES), "MatSetValue");
-  check(MatAssemblyBegin(one.get(), MAT_FINAL_ASSEMBLY), "MatAssemblyBegin");
-  check(MatAssemblyEnd(one.get(), MAT_FINAL_ASSEMBLY), "MatAssemblyEnd");
-  check(KSPCreate(PETSC_COMM_SELF, solver.put()), "KSPCreate");
-  check(KSPSetOperators(solver.get(), one.get(), one.get()), "KSPSetOperators");
-  try {
-    check(KSPSetFromOptions(solver.get()), "KSPSetFromOptions");
-    // Preconditioners of parts and blocks make nothing of one row.
-    if (choice.name != "schwarz" && choice.name != "block") check(KSPSetUp(solver.get()), "KSPSetUp");
-  } catch (const std::runtime_error& error) {
-    throw InvalidInput(
-        fmt::format("solver.options = \"{}\": PETSc refuses them, or those of PETSC_OPTIONS: {}",
-                    choice.options, error.what()));
-  }
-}
-
-void check_options(const SolverChoice& choice) {
-  bool name_before = false;
-  for (const std::string& word : words_in(choice.options)) {
-    const bool is_name = is_option(word);
-    if (!is_name && !name_before)
-      throw InvalidInput(
-          fmt::format("solver.options = \"{}\" is not a list of PETSc options, such as \"-ksp_rtol 1e-8\": "
-                      "\"{}\" follows no option",
-                      choice.options, word));
-    name_before = is_name;
-  }
+  insert(given_options(choice));
 }
 
 std::vector<std::string> unused_options(const SolverChoice& choice) {
-  const char* environment = std::getenv("PETSC_OPTIONS");
-  std::vector<std::string> given = words_in(choice.options + " " + (environment ? environment : ""));
+  const std::vector<std::string> given = words_in(given_options(choice));
   PetscInt count = 0;
   char **names = nullptr, **values = nullptr;
   check(PetscOptionsLeftGet(nullptr, &count, &names, &values), "PetscOptionsLeftGet");

@@ -16,12 +16,10 @@ std::string method_for(const std::string& name, int unknowns);
 /// both those of the environment (PETSC_OPTIONS). The number of rows of the rank sets that of the parts of
 /// additive Schwarz methods.
 void insert_options(const SolverChoice& choice, int rows);
-/// Throws InvalidInput for options that are not a list of "-name" and "-name value".
-void check_options(const SolverChoice& choice);
-
-/// Sets up a solver of a small system with a choice, before any work with it.
-/// Throws InvalidInput for options that PETSc refuses.
-void try_options(const SolverChoice& choice);
+/// The options that a user gives: those of a choice and of the environment, which go before them.
+std::string given_options(const SolverChoice& choice);
+/// Words between blanks.
+std::vector<std::string> words_in(const std::string& text);
 
 /// Options of a choice and of the environment that nothing has asked for.
 std::vector<std::string> unused_options(const SolverChoice& choice);

@@ -170,7 +170,11 @@ void serve(const Ranks& ranks) {
       case compute_factors: {
         Served& served = *problems.at(note.problem);
         const LoadedStage at = served.receive(ranks, note);
-        served.share.factorise(at, served.y);
+        try {
+          served.share.factorise(at, served.y);
+        } catch (const SolverFailure&) {
+          // The leader tells.
+        }
         break;
       }
       case compute_least_mode: {

@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "full3d/assembler.hpp"
 #include "full3d/memory.hpp"
+#include "full3d/option_check.hpp"
 #include "full3d/setup.hpp"
 #include "full3d/solver_options.hpp"
 
@@ -102,6 +103,60 @@ TEST(full3d, OptionsOfSolversAreRefusedByWord) {
     } catch (const InvalidInput& refusal) {
       EXPECT_NE(std::string(refusal.what()).find(options), std::string::npos) << refusal.what();
     }
+}
+
+std::string refusal_of(const SolverChoice& choice, bool with_blood = true, bool lagged = false) {
+  try {
+    check_options(choice);
+    try_options(choice, with_blood, lagged);
+  } catch (const InvalidInput& refusal) {
+    const std::string message = refusal.what();
+    EXPECT_NE(message.find("solver.options = \"" + choice.options + "\""), std::string::npos) << message;
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+    return message;
+  }
+  return "";
+}
+
+/// Options below the top level of each method: none of them is asked for before its part is set up.
+TEST(full3d, OptionsOfPartsAreRefusedBeforeWork) {
+  struct Case {
+    SolverChoice choice;
+    const char* word;
+    bool with_blood = true, lagged = false;
+  };
+  const std::string velocity = "-fieldsplit_motion_fieldsplit_velocity_";
+  for (const Case& bad : {
+           Case{{"schwarz", "-sub_pc_type ILU"}, "did you mean ilu?"},
+           Case{{"schwarz", "-sub_ksp_type gmress"}, "did you mean gmres?"},
+           Case{{"schwarz", "-sub_pc_factor_mat_solver_type mump"}, "did you mean mumps?"},
+           Case{{"schwarz", "-sub_pc_factor_mat_ordering_type ndd"}, "did you mean nd?"},
+           Case{{"schwarz", "-sub_pc_type nonsense"}, "but "},
+           Case{{"schwarz", "-sub_pc_factor_mat_solver_type superlu_dist"}, "write umfpack"},
+           Case{{"block", velocity + "sub_pc_factor_mat_solver_type superlu_dist"}, "write umfpack"},
+           Case{{"block", velocity + "sub_pc_type ILU"}, "did you mean ilu?"},
+           Case{{"block", "-fieldsplit_pressure_pc_type ILU"}, "did you mean ilu?"},
+           // Of these the values are no names of a list.
+           Case{{"schwarz", "-sub_pc_factor_shift_type nonsense"}, "PETSc refuses them"},
+           Case{{"schwarz", "-sub_pc_factor_levels many"}, "PETSc refuses them"},
+           Case{{"block", "-pc_fieldsplit_schur_fact_type most"}, "PETSc refuses them"},
+           Case{{"block", velocity + "sub_pc_factor_shift_type nonsense"}, "PETSc refuses them"},
+           Case{{"block", "-fieldsplit_motion_sub_pc_factor_shift_type nonsense"},
+                "PETSc refuses them",
+                true,
+                true},
+           Case{{"schwarz", "-sub_pc_factor_shift_type nonsense"}, "PETSc refuses them", false},
+       }) {
+    const std::string message = refusal_of(bad.choice, bad.with_blood, bad.lagged);
+    EXPECT_NE(message.find(bad.word), std::string::npos) << bad.choice.options << ": " << message;
+  }
+  for (const Case& good :
+       {Case{{"direct", "-pc_factor_mat_solver_type umfpack"}, ""},
+        Case{{"schwarz", "-sub_pc_type ilu -sub_pc_factor_levels 1"}, ""},
+        Case{{"schwarz", "-sub_pc_factor_mat_solver_type superlu"}, ""},
+        Case{{"block", velocity + "sub_pc_type ilu"}, ""}, Case{{"block", "-ksp_rtol 1e-8"}, "", true, true},
+        Case{{"schwarz", "-sub_pc_type ilu"}, "", false}})
+    EXPECT_EQ(refusal_of(good.choice, good.with_blood, good.lagged), "") << good.choice.options;
 }
 
 TEST(full3d, MethodsAreChosenBySize) {
