@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "axisym/direct_solver.hpp"
 
-#include <stdexcept>
+#include <new>
 
 namespace tunica::axisym {
 
@@ -26,7 +26,7 @@ bool DirectSolver::factorise(SparseMatrix& matrix) {
   int* const rows = matrix.innerIndexPtr();
   double* const values = matrix.valuePtr();
   if (!symbolic_) symbolic_ = klu_analyze(static_cast<int>(matrix.rows()), columns, rows, &common_);
-  if (!symbolic_) throw std::runtime_error("KLU could not order the matrix: out of memory");
+  if (!symbolic_) throw std::bad_alloc();
   if (numeric_) {
     // Growth of entries by elimination, 1 for perfect pivots: below this, pivots of another matrix do harm.
     constexpr double least_growth = 1e-8;

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/memory.hpp"
 #include "core/observables/stops.hpp"
 #include "core/radial/limit_load.hpp"
 #include "core/scene/unused.hpp"
@@ -69,6 +70,9 @@ class LumpedRun final : public TierRun {
     } catch (const SolverFailure& failure) {
       result_.record.failure =
           fmt::format("at t = {:.6g} s (beat {}): {}", time_, beat_at(time_), reason(failure));
+    } catch (const std::bad_alloc& error) {
+      result_.record.failure =
+          fmt::format("at t = {:.6g} s (beat {}): {}", time_, beat_at(time_), memory_ran_out(error));
     }
     std::move(log_).store(result_);
     result_.record.solve_seconds = seconds_since(solving);
@@ -90,6 +94,11 @@ class LumpedRun final : public TierRun {
     if (scene_.number("output.field_interval") > 0) result_.fields.push_back(wall_fields_.empty_series());
     result_.sensitivities = observer_.sensitivity_table();
     if (network_.compartments() > 1) result_.compartments = observer_.compartment_table();
+    std::size_t columns = 0;
+    for (const auto* table : {&result_.observables, &result_.sensitivities, &result_.compartments})
+      columns += table->columns().size();
+    observables::check_output_memory(scene_, stops_, columns, observables::numbers_of_a_time(result_.fields),
+                                     1);
     auto& record = result_.record;
     record.tier = "lumped";
     record.resolution = {{"compartments", scene_.integer("lumped.compartments")},
@@ -121,6 +130,15 @@ class LumpedRun final : public TierRun {
   /// pressure that the inflow asks for at the outlet's resistance, or that it has been opened beyond what it
   /// carries most at.
   std::string reason(const SolverFailure& failure) const {
+    try {
+      return physical_reason(failure);
+    } catch (const SolverFailure&) {
+      // How much the wall carries is not known where its response cannot be computed.
+      return failure.what();
+    }
+  }
+
+  std::string physical_reason(const SolverFailure& failure) const {
     constexpr double nearly = 0.98;
     const auto& inlet = network_.inlet();
     const bool is_periodic = phase_ == Phase::to_limit_cycle;

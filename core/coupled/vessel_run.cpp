@@ -13,6 +13,7 @@
 #include "core/coupled/limit_cycle.hpp"
 #include "core/coupled/simulation.hpp"
 #include "core/error.hpp"
+#include "core/memory.hpp"
 #include "core/observables/stops.hpp"
 #include "core/root.hpp"
 
@@ -100,6 +101,8 @@ class VesselRun final : public TierRun {
       if (phase_ != Phase::steady)
         result_.record.failure += limit_of_wall(loading_.ring.get(), loading_.expected_pressure);
       result_.record.failure += hint_of_blow();
+    } catch (const std::bad_alloc& error) {
+      result_.record.failure = fmt::format("{}: {}", where(), memory_ran_out(error));
     }
     log_.store(result_, end_, result_.record.converged && !is_static_);
     count();
@@ -124,6 +127,10 @@ class VesselRun final : public TierRun {
     result_.profiles = observables::profile_table();
     result_.along = observer_.along_table();
     if (scene_.number("output.field_interval") > 0) result_.fields = vessel_->fields().empty_series();
+    // A checkpoint is made of copies of all that there is: as numbers, packed, and as the file's text.
+    constexpr double copies = 5;
+    observables::check_output_memory(scene_, stops_, result_.observables.columns().size(),
+                                     observables::numbers_of_a_time(result_.fields), copies);
   }
 
   void describe_run() {

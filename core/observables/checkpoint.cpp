@@ -22,6 +22,8 @@ namespace {
 constexpr const char* file_name = "checkpoint";
 constexpr const char* remedy =
     "leave out --resume to compute from the beginning, or name another folder with --out";
+constexpr const char* remedy_for_another =
+    "leave out --resume and write --replace to discard it, or name another folder with --out";
 
 std::string_view view(const std::vector<std::uint8_t>& bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
@@ -38,6 +40,25 @@ std::uint64_t checksum_of(const Json& whole) {
   for (const char* key : {"tier", "scene", "files"}) bytes += whole.at(key).get<std::string>();
   bytes += view(whole.at("body").get_binary());
   return checksum(bytes);
+}
+
+/// The checkpoint as it was written. A null when it is cut off or damaged.
+Json whole_checkpoint(const fs::path& file) {
+  constexpr bool strict = true, throwing = false;
+  Json whole = Json::from_cbor(contents(file), strict, throwing);
+  try {
+    if (whole.is_object() && whole.at("body").is_binary() && whole.at("checksum") == checksum_of(whole))
+      return whole;
+  } catch (const Json::exception&) {
+    // What is missing is damage too.
+  }
+  return {};
+}
+
+/// What has changed in the scene and its files since.
+std::string change_since(const Json& whole, const Scene& scene) {
+  return changed_input(scene, input_files(scene), whole.at("scene").get<std::string>(),
+                       nlohmann::ordered_json::parse(whole.at("files").get<std::string>()));
 }
 
 std::string program() {
@@ -69,27 +90,33 @@ void write_checkpoint(const fs::path& folder, const Scene& scene, std::string_vi
 
 Checkpoint read_checkpoint(const fs::path& folder, const Scene& scene, std::string_view tier) {
   const fs::path file = folder / file_name;
-  const auto refuse = [&](const std::string& what) {
-    throw InvalidInput(fmt::format("{}: {}; {}", file.string(), what, remedy));
+  const auto refuse = [&](const std::string& what, const char* how_on = remedy) {
+    throw InvalidInput(fmt::format("{}: {}; {}", file.string(), what, how_on));
   };
-  constexpr bool strict = true, throwing = false;
-  const Json whole = Json::from_cbor(contents(file), strict, throwing);
+  const Json whole = whole_checkpoint(file);
+  if (whole.is_null()) refuse("the checkpoint is cut off or damaged");
   const auto text = [&](const char* key) { return whole.value(key, std::string()); };
   try {
-    if (!whole.is_object() || !whole.at("body").is_binary() || whole.at("checksum") != checksum_of(whole))
-      refuse("the checkpoint is cut off or damaged");
     if (text("program") != program())
       refuse(fmt::format("the checkpoint was written by tunica {}, this is {}", text("program"), program()));
-    if (text("tier") != tier) refuse(fmt::format("the checkpoint is of tier {}, not {}", text("tier"), tier));
-    const std::string change =
-        changed_input(scene, input_files(scene), text("scene"), nlohmann::ordered_json::parse(text("files")));
-    if (!change.empty()) refuse("the checkpoint is of another scene: " + change);
+    if (text("tier") != tier)
+      refuse(fmt::format("the checkpoint is of tier {}, not {}", text("tier"), tier), remedy_for_another);
+    const std::string change = change_since(whole, scene);
+    if (!change.empty()) refuse("the checkpoint is of another scene: " + change, remedy_for_another);
     const Json body = Json::from_cbor(whole.at("body").get_binary());
     return {body.at("state"), json::to_result(body.at("so_far"))};
   } catch (const Json::exception&) {
     refuse("the checkpoint is cut off or damaged");
     throw;
   }
+}
+
+std::string other_checkpoint(const fs::path& folder, const Scene& scene, std::string_view tier) {
+  if (!has_checkpoint(folder)) return {};
+  const Json whole = whole_checkpoint(folder / file_name);
+  if (whole.is_null()) return {};
+  const std::string of_tier = whole.value("tier", std::string());
+  return of_tier != tier ? "it is of tier " + of_tier : change_since(whole, scene);
 }
 
 bool has_checkpoint(const fs::path& folder) {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -34,6 +35,11 @@ void write_checkpoint(const std::filesystem::path& folder, const Scene& scene, s
 /// another version of the program, for another scene (or other contents of a file that it names) or by
 /// another tier.
 Checkpoint read_checkpoint(const std::filesystem::path& folder, const Scene& scene, std::string_view tier);
+
+/// What the checkpoint in the folder belongs to when that is not a run of this scene and tier: "it is of tier
+/// full3d", "cylinder.toml: geometry.radius was 0.4 and is 0.5". Empty when it is theirs, or is damaged, and
+/// without one.
+std::string other_checkpoint(const std::filesystem::path& folder, const Scene& scene, std::string_view tier);
 
 bool has_checkpoint(const std::filesystem::path& folder);
 /// Throws OutputFailure when it is there and cannot be removed.

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -52,6 +53,9 @@ struct FieldSeries {
   std::vector<Frame> frames;  ///< times ascend
 };
 
+/// Numbers of one time in all of the series.
+std::size_t numbers_of_a_time(const std::vector<FieldSeries>& series);
+
 /// One self-contained XDMF 3 file, a temporal collection of uniform grids with all numbers inline. Mesh and
 /// cell fields stand in the first grid; the others include them by XInclude, which the readers of XDMF 2
 /// and of XDMF 3 in ParaView understand (a Reference attribute makes the latter abort). The XDMF 2 reader
@@ -59,6 +63,9 @@ struct FieldSeries {
 /// The planes of FieldMesh::mirrored are an Information, which viewers show nothing of: they show the mesh.
 /// Throws std::logic_error when the numbers of values do not fit the mesh.
 std::string to_xdmf(const FieldSeries& series);
+
+/// The same text, time by time: a run's fields may be many times as long as what is held of them at once.
+void write_xdmf(const FieldSeries& series, const std::function<void(std::string_view)>& sink);
 
 /// What to_xdmf wrote, with numbers in single precision. Only text of its form is understood, not XDMF of
 /// others. Throws std::invalid_argument that says what is not of that form.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -158,6 +159,11 @@ void make_result_folder(const std::filesystem::path& folder);
 /// and the system's reason.
 void write_result(const std::filesystem::path& folder, const Scene& scene, const Result& result);
 
+inline constexpr const char* record_file = "record.json";
+
+/// record.json of a folder written by write_result. Throws InvalidInput when it is missing or broken.
+nlohmann::ordered_json read_record(const std::filesystem::path& folder);
+
 /// Reads a folder written by write_result. Throws InvalidInput when something is missing or broken.
 /// Profiles, events and sensitivities that were not written come back as tables without columns.
 StoredResult read_result(const std::filesystem::path& folder);
@@ -170,5 +176,9 @@ std::vector<observables::FieldSeries> read_space_fields(const std::filesystem::p
 /// fails) and a rename, so that the file is the old or the new one, whole, at every moment, also after
 /// a crash of the machine. Throws OutputFailure.
 void write_whole(const std::filesystem::path& file, std::string_view text);
+
+/// The same for text that comes in parts: `make` is called once and hands them over in order.
+using Sink = std::function<void(std::string_view)>;
+void write_whole(const std::filesystem::path& file, const std::function<void(const Sink&)>& make);
 
 }  // namespace tunica

@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/observables/stops.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+
+#include "core/error.hpp"
+#include "core/memory.hpp"
 
 namespace tunica::observables {
 
@@ -22,6 +27,8 @@ std::vector<double> regular_times(double interval, double end) {
 std::vector<Stop> stops(const Scene& scene, double period) {
   const auto beats = static_cast<double>(scene.integer("time.beats"));
   const double end = beats * period;
+  // One state has no times.
+  if (scene.text("time.mode") == "static") return {{.time = end}};
   std::vector<Stop> all{{.time = (beats - 1) * period, .begins_last_beat = true}};
   for (const double time : regular_times(scene.number("output.interval"), end))
     all.push_back({.time = time, .is_row = true});
@@ -38,6 +45,32 @@ std::vector<Stop> stops(const Scene& scene, double period) {
   }
   std::stable_sort(all.begin(), all.end(), [](const Stop& a, const Stop& b) { return a.time < b.time; });
   return all;
+}
+
+void check_output_memory(const Scene& scene, const std::vector<Stop>& stops, std::size_t columns,
+                         std::size_t numbers, double copies) {
+  check_output_memory(scene, stops, columns, numbers, copies, available_memory());
+}
+
+void check_output_memory(const Scene& scene, const std::vector<Stop>& stops, std::size_t columns,
+                         std::size_t numbers, double copies, std::optional<double> available) {
+  // A table's text is made at once; that of pictures is written time by time.
+  constexpr double text_of_number = 20;
+  const auto count = [&](bool Stop::*kind) {
+    return static_cast<double>(
+        std::count_if(stops.begin(), stops.end(), [&](const Stop& stop) { return stop.*kind; }));
+  };
+  const double rows = count(&Stop::is_row), pictures = count(&Stop::is_field);
+  const double of_rows = rows * static_cast<double>(columns) * (copies * sizeof(double) + text_of_number);
+  const double of_pictures = pictures * static_cast<double>(numbers) * copies * sizeof(float);
+  if (!available || of_rows + of_pictures <= *available) return;
+  const bool rows_weigh = of_rows > of_pictures;
+  const char* key = rows_weigh ? "output.interval" : "output.field_interval";
+  throw InvalidInput(
+      fmt::format("{} = {:.6g} s makes {:.0f} {}, for which a run takes an estimated {:.3g} GiB, and "
+                  "{:.3g} GiB are available; give a longer time{}",
+                  key, scene.number(key), rows_weigh ? rows : pictures, rows_weigh ? "rows" : "pictures",
+                  (of_rows + of_pictures) / gib, *available / gib, rows_weigh ? "" : ", or 0 for none"));
 }
 
 }  // namespace tunica::observables

@@ -35,7 +35,6 @@ constexpr TableFile table_files[] = {{"observables.csv", &Result::observables},
                                      {"recruited_time.csv", &Result::recruited_time},
                                      {"compartments.csv", &Result::compartments},
                                      {"along.csv", &Result::along}};
-constexpr const char* record_file = "record.json";
 constexpr const char* fields_folder = "fields";
 constexpr const char* fields_extension = ".xdmf";
 
@@ -100,7 +99,8 @@ void write_fields(const fs::path& folder, const std::vector<observables::FieldSe
     if (series.frames.empty()) continue;
     fs::create_directory(folder, error);
     if (error) fail(folder, "the folder for fields cannot be made", error.value());
-    write_whole(folder / (series.name + fields_extension), observables::to_xdmf(series));
+    write_whole(folder / (series.name + fields_extension),
+                [&](const Sink& sink) { observables::write_xdmf(series, sink); });
   }
   // What is not empty holds fields or something of the user's, and stays.
   if (fs::is_directory(folder)) fs::remove(folder, error);
@@ -178,18 +178,24 @@ std::string whole_text(const fs::path& file) {
 
 }  // namespace
 
-void write_whole(const fs::path& file, std::string_view text) {
+void write_whole(const fs::path& file, const std::function<void(const Sink&)>& make) {
   TemporaryFile temporary(temporary_name(file));
   if (temporary.descriptor() < 0) fail(file, "cannot be written", errno);
-  while (!text.empty()) {
-    const ssize_t written = ::write(temporary.descriptor(), text.data(), text.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) fail(file, "cannot be written", errno);
-    text.remove_prefix(static_cast<std::size_t>(written));
-  }
+  make([&](std::string_view text) {
+    while (!text.empty()) {
+      const ssize_t written = ::write(temporary.descriptor(), text.data(), text.size());
+      if (written < 0 && errno == EINTR) continue;
+      if (written < 0) fail(file, "cannot be written", errno);
+      text.remove_prefix(static_cast<std::size_t>(written));
+    }
+  });
   if (::fsync(temporary.descriptor()) != 0) fail(file, "cannot be written", errno);
   if (::rename(temporary.path().c_str(), file.c_str()) != 0) fail(file, "cannot be written", errno);
   temporary.keep();
+}
+
+void write_whole(const fs::path& file, std::string_view text) {
+  write_whole(file, [&](const Sink& sink) { sink(text); });
 }
 
 void make_result_folder(const fs::path& folder) {
@@ -217,19 +223,24 @@ void write_result(const fs::path& folder, const Scene& scene, const Result& resu
   write_whole(folder / record_file, record_text(scene, result.record));
 }
 
-StoredResult read_result(const fs::path& folder) {
-  StoredResult stored;
-  stored.folder = folder;
-  const fs::path record = folder / record_file;
-  std::ifstream stream(record);
+Json read_record(const fs::path& folder) {
+  const fs::path file = folder / record_file;
+  std::ifstream stream(file);
   if (!stream)
     throw InvalidInput(
         fmt::format("{}: no whole result here ({} is missing); make one with: tunica run SCENE "
                     "--out {}",
                     folder.string(), record_file, folder.string()));
-  stored.record = Json::parse(stream, nullptr, false);
-  if (!stored.record.is_object() || stored.record.value("program", Json()) != "tunica")
-    throw InvalidInput(fmt::format("{}: not the record of a run of tunica", record.string()));
+  Json record = Json::parse(stream, nullptr, false);
+  if (!record.is_object() || record.value("program", Json()) != "tunica")
+    throw InvalidInput(fmt::format("{}: not the record of a run of tunica", file.string()));
+  return record;
+}
+
+StoredResult read_result(const fs::path& folder) {
+  StoredResult stored;
+  stored.folder = folder;
+  stored.record = read_record(folder);
   for (const TableFile& file : table_files) {
     const fs::path path = folder / file.name;
     const bool needed = file.table == &Result::observables;

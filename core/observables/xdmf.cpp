@@ -149,15 +149,20 @@ std::size_t corners(CellShape shape) {
   throw std::logic_error("corners: a cell shape without corners");
 }
 
-std::string to_xdmf(const FieldSeries& series) {
-  check(series);
-  std::size_t numbers = 16 * series.mesh.points.size();
-  for (const PointField& field : series.point_fields)
-    numbers += field.components * series.mesh.points.size() * series.frames.size();
-  constexpr std::size_t characters_per_number = 11;
-  std::string text;
-  text.reserve(numbers * characters_per_number + 1000 * (series.frames.size() + 2));
+std::size_t numbers_of_a_time(const std::vector<FieldSeries>& series) {
+  std::size_t numbers = 0;
+  for (const FieldSeries& one : series)
+    for (const PointField& field : one.point_fields) numbers += field.components * one.mesh.points.size();
+  return numbers;
+}
 
+void write_xdmf(const FieldSeries& series, const std::function<void(std::string_view)>& sink) {
+  check(series);
+  std::string text;
+  const auto hand_over = [&] {
+    sink(text);
+    text.clear();
+  };
   fmt::format_to(std::back_inserter(text),
                  "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
                  "<Xdmf Version=\"3.0\" xmlns:xi=\"http://www.w3.org/2001/XInclude\">\n<Domain>\n");
@@ -187,9 +192,16 @@ std::string to_xdmf(const FieldSeries& series) {
       append_attribute(text, field.name, "Node", frame.values[f], field.components);
     }
     text += "</Grid>\n";
+    hand_over();
   }
   text += "</Grid>\n</Domain>\n</Xdmf>\n";
-  return text;
+  hand_over();
+}
+
+std::string to_xdmf(const FieldSeries& series) {
+  std::string whole;
+  write_xdmf(series, [&](std::string_view text) { whole += text; });
+  return whole;
 }
 
 }  // namespace tunica::observables
