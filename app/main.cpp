@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -38,8 +39,12 @@ class LightProgram final : public Program {
   }
   const TierList& tiers() const override { return tiers_; }
 
-  void before_computing(const Tier& tier) const override {
-    if (tier.name() != full3d::tier_name) {
+  bool speaks() const override { return is_first_process(); }
+
+  void before_computing(const std::vector<const Tier*>& tiers) const override {
+    const bool in_common = std::any_of(tiers.begin(), tiers.end(),
+                                       [](const Tier* tier) { return tier->name() == full3d::tier_name; });
+    if (!in_common) {
       // What one process computes need not be computed by all that mpirun has started.
       if (!is_first_process()) std::exit(0);
       return;

@@ -4,6 +4,7 @@
 
 #include <exception>
 
+#include "app/interrupt.hpp"
 #include "app/program.hpp"
 #include "app/tiers.hpp"
 #include "full3d/full3d_tier.hpp"
@@ -18,7 +19,9 @@ class FullProgram final : public Program {
     tiers_.push_back(std::make_unique<full3d::Full3dTier>(team));
   }
   const TierList& tiers() const override { return tiers_; }
-  void before_computing(const Tier&) const override {}
+  void before_computing(const std::vector<const Tier*>&) const override {}
+  // Only the leader of a job has a program.
+  bool speaks() const override { return true; }
 
  private:
   TierList tiers_;
@@ -33,6 +36,8 @@ int main(int argc, char** argv) {
     full3d::Team team(ranks);
     return run_program(argc, argv, FullProgram(team));
   }
+  // mpirun tells all processes to end: the leader does so when it has stored what there is.
+  ignore_interrupts();
   try {
     full3d::serve(ranks);
   } catch (const std::exception& error) {

@@ -3,13 +3,14 @@
 
 #include <chrono>
 
+#include "app/time_left.hpp"
 #include "core/tier.hpp"
 
 namespace tunica {
 
 /// Shows how a long run goes on: one line that is written over on a terminal, in a log a plain
 /// line a beat and, within long ones, as often as `between_lines`. A run that is over within half a second
-/// shows nothing.
+/// shows nothing. How long it will take is told once that is known.
 class ProgressDisplay {
  public:
   explicit ProgressDisplay(bool quiet,
@@ -26,8 +27,8 @@ class ProgressDisplay {
   std::chrono::duration<double> between_lines_;
   bool shown_ = false;
   int last_beat_ = -1;
-  Clock::time_point start_ = Clock::now(), last_ = start_, beats_start_ = start_;
-  double beats_from_ = -1;  ///< s of simulated time at beats_start_
+  Clock::time_point start_ = Clock::now(), last_ = start_;
+  TimeLeft left_;
 };
 
 }  // namespace tunica

@@ -40,7 +40,7 @@ class Maker {
     for (const Tier* tier : tiers) {
       if (const std::string reason = tier->refusal(scene); !reason.empty())
         throw InvalidInput(fmt::format("{}: tier {}: {}", scene.name(), tier->name(), reason));
-      runs.push_back(std::make_unique<StoredRun>(*tier, scene, folder_ / tier->name(), false));
+      runs.push_back(std::make_unique<StoredRun>(*tier, scene, folder_ / tier->name(), earlier()));
     }
     for (std::size_t k = 0; k < tiers.size() && !found_.interrupted; ++k)
       found_.tiers.push_back(
@@ -84,6 +84,8 @@ class Maker {
   }
 
  private:
+  Earlier earlier() const { return control_.replace ? Earlier::replace : Earlier::keep_stopped; }
+
   std::size_t rung_run(const Tier& tier, const Scene& scene, const Rung& rung,
                        const std::vector<std::string>& overrides) {
     const std::string id = fmt::format("{}-{}", tier.name(), rung.id);
@@ -93,7 +95,7 @@ class Maker {
       return run.id == id && run.label == fmt::format("{}, {}", tier.name(), how);
     });
     if (made != found_.runs.end()) return static_cast<std::size_t>(made - found_.runs.begin());
-    StoredRun run(tier, scene, folder_ / id, false);
+    StoredRun run(tier, scene, folder_ / id, earlier());
     return execute(run, id, tier, how);
   }
 

@@ -87,6 +87,7 @@ struct VerifyControl {
   std::function<void(const std::string& line)> warn = [](const std::string&) {};
   std::function<void(const Progress&)> report = [](const Progress&) {};
   std::function<bool()> interrupted = [] { return false; };
+  bool replace = false;  ///< also runs of other scenes that were stopped and could be resumed
 };
 
 /// Computes the scene with every tier (the reference last) and with the rungs of the ladders between them,

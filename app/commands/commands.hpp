@@ -15,8 +15,9 @@ struct RunArguments {
   std::string scene;
   std::string tier = "auto";
   std::vector<std::string> overrides;
-  std::string out;  ///< empty: results/NAME
+  std::string out;  ///< empty: result_folder
   bool resume = false;
+  bool replace = false;  ///< also what could be resumed
   bool quiet = false;
   bool report = true;
 };
@@ -26,7 +27,8 @@ struct VerifyArguments {
   std::string scene;
   std::vector<std::string> tiers;  ///< empty: all that can compute the scene
   std::vector<std::string> overrides;
-  std::string out;  ///< empty: results/NAME-verify
+  std::string out;  ///< empty: result_folder
+  bool replace = false;
   bool quiet = false;
 };
 int verify_command(const VerifyArguments& arguments, const Program& program);

@@ -8,6 +8,8 @@
 #include "app/interrupt.hpp"
 #include "app/progress.hpp"
 #include "app/report/report.hpp"
+#include "app/result_folder.hpp"
+#include "app/tell.hpp"
 #include "app/tiers.hpp"
 #include "core/error.hpp"
 #include "core/observables/result.hpp"
@@ -26,12 +28,17 @@ constexpr const char* report_file = "report.html";
 int run_command(const RunArguments& arguments, const Program& program) {
   const Scene scene = read_scene(arguments.scene, arguments.overrides);
   const Tier& tier = choose_tier(program.tiers(), arguments.tier, scene);
-  program.before_computing(tier);
-  const fs::path folder =
-      arguments.out.empty() ? fs::path("results") / scene.name() : fs::path(arguments.out);
-  heed_interrupts();
+  program.before_computing({&tier});
+  std::vector<std::string> parts;
+  if (arguments.tier != "auto") parts.push_back(arguments.tier);
+  const fs::path folder = arguments.out.empty() ? result_folder(scene.name(), parts, arguments.overrides)
+                                                : fs::path(arguments.out);
+  heed_interrupts(arguments.quiet);
   // A scene that the tier refuses leaves nothing behind: the folder is made when the run is executed.
-  StoredRun run(tier, scene, folder, arguments.resume);
+  StoredRun run(tier, scene, folder,
+                arguments.resume    ? Earlier::resume
+                : arguments.replace ? Earlier::replace
+                                    : Earlier::keep_stopped);
   // Of a scene that is refused nothing else is said.
   if (!arguments.quiet)
     for (const auto& remark : scene.remarks()) spdlog::warn(remark);
@@ -55,25 +62,28 @@ int run_command(const RunArguments& arguments, const Program& program) {
   // A report that was made of an earlier result must not stand beside this one.
   std::error_code no_report;
   fs::remove(folder / report_file, no_report);
-  run.store(result);
-  if (arguments.report && result.observables.rows() > 0)
-    write_whole(folder / report_file, make_report({read_result(folder)}));
+  run.store(result, [&] {
+    if (arguments.report && result.observables.rows() > 0)
+      write_whole(folder / report_file, make_report({read_result(folder)}));
+  });
 
   const RunRecord& record = result.record;
   if (!arguments.quiet)
     for (const auto& finding : record.findings) spdlog::warn(finding);
   if (!arguments.quiet)
-    fmt::print("{}: tier {}, {} rows, {} steps, {} Newton iterations, set-up {:.1f} ms, solver {:.1f} ms\n",
-               folder.string(), record.tier, result.observables.rows(), record.steps,
-               record.newton_iterations, 1e3 * record.setup_seconds, 1e3 * record.solve_seconds);
+    tell(fmt::format(
+             "{}: tier {}, {} rows, {} steps, {} Newton iterations, set-up {:.1f} ms, solver {:.1f} ms\n",
+             folder.string(), record.tier, result.observables.rows(), record.steps, record.newton_iterations,
+             1e3 * record.setup_seconds, 1e3 * record.solve_seconds),
+         stdout);
   if (!record.failure.empty()) {
-    fmt::print(stderr, "tunica: {}: the solver gave up {}; results up to there are in {}\n", scene.name(),
-               record.failure, folder.string());
+    tell(fmt::format("tunica: {}: the solver gave up {}; results up to there are in {}\n", scene.name(),
+                     record.failure, folder.string()));
     return gave_up;
   }
   if (record.interrupted) {
-    fmt::print(stderr, "tunica: {}: interrupted; results so far are in {}, --resume {}\n", scene.name(),
-               folder.string(), has_checkpoint(folder) ? "completes them" : "begins again");
+    tell(fmt::format("tunica: {}: interrupted; results so far are in {}, --resume {}\n", scene.name(),
+                     folder.string(), has_checkpoint(folder) ? "completes them" : "begins again"));
     return interrupted;
   }
   return done;

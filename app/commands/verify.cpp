@@ -6,14 +6,18 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "app/commands/commands.hpp"
 #include "app/interrupt.hpp"
 #include "app/progress.hpp"
 #include "app/report/report.hpp"
+#include "app/result_folder.hpp"
+#include "app/tell.hpp"
 #include "app/tiers.hpp"
 #include "core/error.hpp"
+#include "core/observables/folder_lock.hpp"
 #include "verification/cross_tier.hpp"
 
 namespace tunica {
@@ -77,21 +81,32 @@ int verify_command(const VerifyArguments& arguments, const Program& program) {
   const Scene scene = read({});
   std::vector<std::string> refused;
   const auto compared = chosen(program.tiers(), arguments.tiers, scene, refused);
-  for (const Tier* tier : compared) program.before_computing(*tier);
-  const fs::path folder =
-      arguments.out.empty() ? fs::path("results") / (scene.name() + "-verify") : fs::path(arguments.out);
+  program.before_computing(compared);
+  std::vector<std::string> parts{"verify"};
+  parts.insert(parts.end(), arguments.tiers.begin(), arguments.tiers.end());
+  const fs::path folder = arguments.out.empty() ? result_folder(scene.name(), parts, arguments.overrides)
+                                                : fs::path(arguments.out);
   if (!arguments.quiet)
     for (const auto& reason : refused) spdlog::warn("not compared: {}", reason);
 
-  heed_interrupts();
+  heed_interrupts(arguments.quiet);
+  // Each run locks its own folder; what is written beside them is for one verification too.
+  std::optional<FolderLock> lock;
+  std::error_code unreadable;
+  if (fs::is_directory(folder, unreadable)) lock.emplace(folder);
   verification::CrossTier found;
   {
     std::unique_ptr<ProgressDisplay> display;
     verification::VerifyControl control;
+    control.replace = arguments.replace;
     // Of a scene that is refused nothing else is said.
     bool remarked = arguments.quiet;
     control.begin = [&](const std::string& label) {
       computation_begins();
+      if (!lock) {
+        make_result_folder(folder);
+        lock.emplace(folder);
+      }
       if (!std::exchange(remarked, true))
         for (const auto& remark : scene.remarks()) spdlog::warn(remark);
       remove_earlier(folder);
@@ -108,20 +123,21 @@ int verify_command(const VerifyArguments& arguments, const Program& program) {
     found = verification::verify(compared, read, folder, control);
   }
   if (found.interrupted) {
-    fmt::print(stderr,
-               "tunica: {}: interrupted; the runs so far are in {}, nothing was compared; the same command "
-               "begins anew, tunica run with --resume completes one of them\n",
-               scene.name(), folder.string());
+    tell(fmt::format(
+        "tunica: {}: interrupted; the runs so far are in {}, nothing was compared; the same command "
+        "begins anew, tunica run with --resume completes one of them\n",
+        scene.name(), folder.string()));
     return interrupted;
   }
   const auto results = found.tier_results();
   if (!results.empty()) write_whole(folder / "report.html", make_report(results, &found));
   write_whole(folder / "verify.json",
               to_json(found).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
-  if (!arguments.quiet) fmt::print("{}{}: report.html, verify.json\n", to_text(found), folder.string());
+  if (!arguments.quiet)
+    tell(fmt::format("{}{}: report.html, verify.json\n", to_text(found), folder.string()), stdout);
   if (const std::string failure = found.failure(); !failure.empty()) {
-    fmt::print(stderr, "tunica: {}: {}; results up to there are in {}\n", scene.name(), failure,
-               folder.string());
+    tell(fmt::format("tunica: {}: {}; results up to there are in {}\n", scene.name(), failure,
+                     folder.string()));
     return gave_up;
   }
   return done;

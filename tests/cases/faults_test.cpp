@@ -87,7 +87,7 @@ class Interrupted : public testing::Test {
 };
 
 TEST_F(Interrupted, BySigintItKeepsWholeFilesAndResumes) {
-  for (const int signal : {SIGINT, SIGTERM}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     const TemporaryFolder folder;
     // The folder is made when the run begins; the signal comes some way into it. A run that has come
     // to writing its files finishes, so an early try may be late on a busy machine.
@@ -115,6 +115,38 @@ TEST_F(Interrupted, BySigintItKeepsWholeFilesAndResumes) {
     EXPECT_TRUE(observables_.starts_with(part)) << "the rows so far are those of the whole run";
     expect_resumed(folder.path());
   }
+}
+
+TEST_F(Interrupted, ItIsSaidAtOnceThatARunStops) {
+  const TemporaryFolder folder;
+  auto arguments = long_run("r");
+  std::erase(arguments, "--quiet");
+  int code = 0;
+  std::string errors;
+  for (double share = 0.3; share > 0.01 && code == 0; share *= 0.5) {
+    std::error_code ignored;
+    fs::remove_all(folder.path() / "r", ignored);
+    Program program(with_program(arguments), folder.path());
+    while (program.running() && !fs::exists(folder.path() / "r")) std::this_thread::sleep_for(100us);
+    std::this_thread::sleep_for(std::chrono::duration<double>(share * duration_));
+    program.send(SIGHUP);
+    code = program.wait();
+    errors = program.errors();
+  }
+  ASSERT_EQ(code, 130) << errors;
+  const auto said = errors.find("tunica: stopping after this step; again to stop now\n");
+  EXPECT_NE(said, std::string::npos) << errors;
+  EXPECT_GT(errors.find("interrupted; results so far"), said) << errors;
+}
+
+// nohup has a program ignore that its terminal goes.
+TEST_F(Interrupted, ByNoHangupThatItIsToIgnore) {
+  const TemporaryFolder folder;
+  Program program(with_program(long_run("r")), folder.path(), [] { std::signal(SIGHUP, SIG_IGN); });
+  while (program.running() && !fs::exists(folder.path() / "r")) std::this_thread::sleep_for(100us);
+  program.send(SIGHUP);
+  EXPECT_EQ(program.wait(), 0) << program.errors();
+  EXPECT_TRUE(read_text(folder.path() / "r/observables.csv") == observables_);
 }
 
 TEST_F(Interrupted, ByKillAtRandomMomentsItLeavesOnlyWholeFiles) {
@@ -237,6 +269,44 @@ TEST(Faults, UnitDatabaseWithoutTheUnitsOfAllIsTold) {
   EXPECT_EQ(ended.code, 2);
   EXPECT_TRUE(is_one_line(ended.errors)) << ended.errors;
   EXPECT_NE(ended.errors.find("set UDUNITS2_XML_PATH to udunits2.xml"), std::string::npos) << ended.errors;
+}
+
+// The limit stands for a machine that is too small. Sanitisers take terabytes of addresses themselves.
+TEST(Faults, MemoryThatRunsOutIsToldWithHowMuchWasAsked) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP();
+#endif
+  const TemporaryFolder folder;
+  const auto limit = [] {
+    const rlimit size{300'000'000, 300'000'000};
+    ::setrlimit(RLIMIT_AS, &size);
+  };
+  const Ended ended = test_support::tunica({"run", scene, "--out", "r", "--quiet", "--tier", "axisym",
+                                            "--set", "mesh.axial_cells=1800", "--set", "mesh.wall_cells=10"},
+                                           folder.path(), limit);
+  EXPECT_EQ(ended.code, 2) << ended.errors;
+  EXPECT_TRUE(is_one_line(ended.errors)) << ended.errors;
+  for (const char* word : {"memory ran out", "iB", "0.279 GiB that a limit", "mesh.*_cells"})
+    EXPECT_NE(ended.errors.find(word), std::string::npos) << ended.errors;
+  EXPECT_TRUE(fs::is_empty(folder.path())) << "something was written";
+}
+
+TEST(Faults, OutputThatIsTooMuchIsRefusedBeforeWork) {
+  const std::string small = "output.field_interval=1.7e-5";
+  for (const std::vector<std::string>& settings : {std::vector<std::string>{"lumped", small},
+                                                   {"axisym", small},
+                                                   {"lumped", "output.interval=1e-6", "time.beats=1000"}}) {
+    const TemporaryFolder folder;
+    std::vector<std::string> arguments{"run", scene, "--out", "r", "--quiet", "--tier", settings[0]};
+    for (std::size_t k = 1; k < settings.size(); ++k)
+      arguments.insert(arguments.end(), {"--set", settings[k]});
+    const Ended ended = test_support::tunica(arguments, folder.path());
+    EXPECT_EQ(ended.code, 2) << ended.errors;
+    EXPECT_TRUE(is_one_line(ended.errors)) << ended.errors;
+    for (const std::string& word : {settings[1].substr(0, settings[1].find('=')), std::string("increase it")})
+      EXPECT_NE(ended.errors.find(word), std::string::npos) << ended.errors;
+    EXPECT_TRUE(fs::is_empty(folder.path())) << "something was written";
+  }
 }
 
 TEST(Faults, UnwritableFolderIsTold) {

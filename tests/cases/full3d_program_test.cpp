@@ -333,8 +333,33 @@ INSTANTIATE_TEST_SUITE_P(
             {"solver.options", "-ksp_type nonsense", "PETSc refuses"}},
         Bad{"factors_that_petsc_has_not",
             {"solver.options=-pc_factor_mat_solver_type nonsense"},
-            {"solver.options", "PETSc refuses"}}),
+            {"solver.options", "PETSc refuses"}},
+        Bad{"preconditioner_of_parts_that_petsc_has_not",
+            {"solver.method=schwarz", "solver.options=-sub_pc_type ILU"},
+            {"solver.options", "-sub_pc_type ILU", "did you mean ilu?"}},
+        Bad{"preconditioner_of_a_block_that_petsc_has_not",
+            {"solver.method=block", "solver.options=-fieldsplit_pressure_pc_type ILU"},
+            {"solver.options", "-fieldsplit_pressure_pc_type ILU", "did you mean ilu?"}},
+        Bad{"factors_of_parts_that_spoil_memory",
+            {"solver.method=schwarz", "solver.options=-sub_pc_factor_mat_solver_type superlu_dist"},
+            {"solver.options", "superlu_dist", "write umfpack"}},
+        Bad{"pictures_without_number",
+            {"output.field_interval=1.7e-5"},
+            {"output.field_interval", "pictures", "0 for none"}}),
     [](const auto& instance) { return instance.param.name; });
+
+// The environment goes before the scene, on every level.
+TEST(Options, OfTheEnvironmentAreRefusedLikeThoseOfTheScene) {
+  const TemporaryFolder folder;
+  Arguments arguments = run_with({"solver.method=schwarz"});
+  arguments.insert(arguments.begin(), {"/usr/bin/env", "PETSC_OPTIONS=-sub_pc_type ILU", TUNICA_PROGRAM});
+  const Ended ended = run(arguments, folder.path());
+  EXPECT_EQ(ended.code, 2) << ended.errors;
+  EXPECT_TRUE(is_one_line(ended.errors)) << ended.errors;
+  for (const char* word : {"PETSC_OPTIONS", "-sub_pc_type ILU", "did you mean ilu?"})
+    EXPECT_NE(ended.errors.find(word), std::string::npos) << ended.errors;
+  EXPECT_TRUE(fs::is_empty(folder.path())) << "something was written";
+}
 
 TEST(Options, ThatNothingAsksForAreNamed) {
   const TemporaryFolder folder;
@@ -365,6 +390,70 @@ TEST(LightTiers, DoWithoutTheProgramOf3D) {
                             folder.path());
     EXPECT_EQ(ended.code, 0) << tier << ": " << ended.errors;
   }
+}
+
+/// The errors of a program once they hold a text, or when it has ended.
+std::string errors_with(Program& program, const std::string& text) {
+  while (program.running() && program.errors().find(text) == std::string::npos)
+    std::this_thread::sleep_for(2ms);
+  return program.errors();
+}
+
+// A step of a mesh like this takes seconds: what a user who waits for it hears, and how it is stopped at
+// once.
+TEST(Interrupted, InALongStepItIsSaidAtOnceAndTheSecondOneStops) {
+  for (const int signal : {SIGINT, SIGHUP}) {
+    const TemporaryFolder folder;
+    Arguments arguments{TUNICA_PROGRAM, "run", scenes / "cylinder.toml", "--tier", "full3d", "--out", "r",
+                        "--no-report"};
+    for (const char* setting : {"mesh.symmetry=full", "mesh.axial_cells=20", "mesh.around_cells=16",
+                                "mesh.wall_cells=2", "mesh.blood_cells=2", "output.field_interval=0"})
+      arguments.insert(arguments.end(), {"--set", setting});
+    Program program(arguments, folder.path());
+    while (program.running() && !fs::exists(folder.path() / "r")) std::this_thread::sleep_for(2ms);
+    ASSERT_TRUE(program.running()) << program.errors();
+    program.send(signal);
+    const std::string said = "tunica: stopping after this step; again to stop now\n";
+    EXPECT_NE(errors_with(program, said).find(said), std::string::npos) << program.errors();
+    // Signals in quick succession are one request that is told twice.
+    program.send(signal);
+    std::this_thread::sleep_for(100ms);
+    ASSERT_TRUE(program.running()) << "the step was shorter than it takes to say so, or once was twice";
+    program.send(SIGTERM);
+    EXPECT_EQ(program.wait(), 130);
+    EXPECT_NE(program.errors().find("interrupted at once"), std::string::npos) << program.errors();
+    EXPECT_EQ(broken_file(folder.path() / "r"), "");
+  }
+}
+
+// mpirun tells all of them: the leader stores what there is, and the others serve it until it has.
+TEST(Ranks, AreStoppedByTheirLeader) {
+  const TemporaryFolder folder;
+  Program program(on_ranks(2, run_with(two_beats)), folder.path());
+  while (program.running() && !fs::exists(folder.path() / "r/checkpoint")) std::this_thread::sleep_for(5ms);
+  ASSERT_TRUE(program.running()) << program.errors();
+  for (const int rank : {1, 0}) {
+    const pid_t process = process_of_rank(program.id(), rank);
+    ASSERT_GT(process, 0);
+    ASSERT_EQ(::kill(process, SIGTERM), 0);
+  }
+  EXPECT_EQ(program.wait(), 130) << program.errors();
+  EXPECT_EQ(read_result(folder.path() / "r").record.at("interrupted"), true);
+  EXPECT_GT(read_result(folder.path() / "r").result.observables.rows(), 0U);
+}
+
+TEST(LightTiers, AreComparedWithThe3DTierUnderMpirun) {
+  const TemporaryFolder folder;
+  Arguments arguments{"verify", scenes / "cylinder.toml", "--tiers", "lumped,full3d", "--out", "v",
+                      "--quiet"};
+  for (const char* setting :
+       {"mesh.wall_cells=1", "mesh.blood_cells=1", "mesh.axial_cells=6", "mesh.around_cells=8",
+        "output.field_interval=0", "time.beats=1", "time.step=0.1", "inlet.flow=0.01"})
+    arguments.insert(arguments.end(), {"--set", setting});
+  const Ended ended = run(on_ranks(2, arguments), folder.path());
+  EXPECT_EQ(ended.code, 0) << ended.errors;
+  EXPECT_TRUE(fs::exists(folder.path() / "v/verify.json"));
+  EXPECT_EQ(read_result(folder.path() / "v/full3d").record.at("resolution").at("ranks"), 2);
 }
 
 TEST(LightTiers, WriteOneWholeResultUnderMpirun) {

@@ -263,6 +263,20 @@ TEST(RunProgram, ListsScenesAndParametersAndHelp) {
   }
 }
 
+TEST(RunProgram, HelpNamesTiersExamplesAndExitCodes) {
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--help"}, {"run", "--help"}}) {
+    const Ended ended = test_support::tunica(arguments);
+    for (const char* word : {"lumped", "axisym", "full3d", "Examples:", "tunica run scenes/cylinder.toml",
+                             "mpirun -n 2 tunica run", "Exit codes", "130"})
+      EXPECT_NE(ended.output.find(word), std::string::npos) << word << " is not in:\n" << ended.output;
+    for (std::size_t begin = 0; begin < ended.output.size();) {
+      const auto end = std::min(ended.output.find('\n', begin), ended.output.size());
+      EXPECT_LE(end - begin, 120U) << ended.output.substr(begin, end - begin);
+      begin = end + 1;
+    }
+  }
+}
+
 struct BadCall {
   const char* name;
   std::vector<std::string> arguments;

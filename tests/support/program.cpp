@@ -105,7 +105,7 @@ std::string broken_file(const fs::path& folder) {
       if (const std::string broken = broken_file(entry.path()); !broken.empty()) return name + "/" + broken;
       continue;
     }
-    if (name.starts_with('.') && name.ends_with(".part")) continue;
+    if ((name.starts_with('.') && name.ends_with(".part")) || name == ".lock") continue;
     if (name == "fields" && entry.is_directory()) {
       if (const std::string broken = broken_file(entry.path()); !broken.empty()) return broken;
       continue;

@@ -52,7 +52,8 @@ Ended tunica(
 bool is_one_line(const std::string& errors);
 
 /// What is wrong with a folder of results at any moment at all, empty when nothing is: each file has to
-/// be whole. Files that are being written (".NAME.PID.part") do not count.
+/// be whole. Files that are being written (".NAME.PID.part"), and the lock of a run that was killed, do not
+/// count.
 std::string broken_file(const std::filesystem::path& folder);
 
 }  // namespace tunica::test_support

@@ -183,6 +183,114 @@ TEST(StoredRun, WithoutResumeAnOldCheckpointGoes) {
   EXPECT_FALSE(has_checkpoint(folder.path()));
 }
 
+/// A wall that no solver can set up, or whose solver is lost on the way.
+class HopelessTier final : public Tier {
+ public:
+  explicit HopelessTier(bool sets_up) : sets_up_(sets_up) {}
+  std::string_view name() const override { return "chaotic"; }
+  std::string refusal(const Scene&) const override { return {}; }
+  bool suits(const Scene&) const override { return true; }
+  std::unique_ptr<TierRun> prepare(const Scene&) const override {
+    struct Lost final : TierRun {
+      Result execute(const RunControl&) override { throw SolverFailure("the wall does not settle"); }
+    };
+    if (!sets_up_) throw SolverFailure("the wall does not settle");
+    return std::make_unique<Lost>();
+  }
+
+ private:
+  bool sets_up_;
+};
+
+class Hopeless : public testing::TestWithParam<bool> {};
+INSTANTIATE_TEST_SUITE_P(StoredRun, Hopeless, testing::Bool());
+
+TEST_P(Hopeless, RunLeavesItsOwnRecord) {
+  const Scene old_scene = scene_of(0.3), scene = scene_of();
+  const TemporaryFolder folder;
+  const ChaoticTier sound;
+  StoredRun old(sound, old_scene, folder.path(), false);
+  old.store(old.execute({}));
+  ASSERT_EQ(read_result(folder.path()).record.at("converged"), true);
+  const HopelessTier tier(GetParam());
+  StoredRun run(tier, scene, folder.path(), false);
+  EXPECT_FALSE(run.is_complete());
+  const Result result = run.execute({});
+  EXPECT_FALSE(result.record.converged);
+  run.store(result);
+  const StoredResult stored = read_result(folder.path());
+  EXPECT_EQ(stored.record.at("converged"), false);
+  EXPECT_EQ(stored.record.at("failure"),
+            std::string(GetParam() ? "" : "in the set-up: ") + "the wall does not settle");
+  EXPECT_EQ(stored.record.at("scene").at("geometry.radius"), 0.4);
+  EXPECT_EQ(stored.result.observables.rows(), 0U);
+  // Where the solver has been mended the same command with --resume computes.
+  EXPECT_EQ(resumed(scene, folder.path(), false), undisturbed(scene));
+}
+
+TEST(StoredRun, IsAloneInItsFolderUntilItHasStored) {
+  const Scene scene = scene_of(), other = scene_of(0.5);
+  const ChaoticTier tier;
+  const TemporaryFolder folder;
+  const auto refusal = [&] {
+    try {
+      const StoredRun second(tier, other, folder.path(), false);
+    } catch (const InvalidInput& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  std::string during, beside;
+  RunControl control;
+  control.report = [&](const Progress& progress) {
+    if (progress.step == 5) during = refusal();
+  };
+  StoredRun run(tier, scene, folder.path(), false);
+  const Result result = run.execute(control);
+  run.store(result, [&] { beside = refusal(); });
+  for (const std::string& message : {during, beside})
+    EXPECT_NE(message.find("another run is at work in this folder"), std::string::npos) << message;
+  EXPECT_EQ(refusal(), "");
+}
+
+// Both find no folder; the quicker one has stored its result when the other begins.
+TEST(StoredRun, DoesNotReplaceTheResultOfOneThatWasQuicker) {
+  const Scene scene = scene_of(), other = scene_of(0.5);
+  const ChaoticTier tier;
+  const TemporaryFolder folder;
+  const fs::path results = folder.path() / "r";
+  StoredRun slow(tier, other, results, false), quick(tier, scene, results, false);
+  quick.store(quick.execute({}));
+  const std::string rows = read_text(results / "observables.csv");
+  EXPECT_THROW(slow.execute({}), InvalidInput);
+  EXPECT_EQ(read_text(results / "observables.csv"), rows);
+}
+
+TEST(StoredRun, WhatCouldBeResumedIsDiscardedOnlyWhenAsked) {
+  const Scene scene = scene_of(), other = scene_of(0.5);
+  const ChaoticTier tier;
+  const TemporaryFolder folder;
+  run_and_kill(scene, folder.path(), false, 200);
+  ASSERT_TRUE(has_checkpoint(folder.path()));
+  try {
+    const StoredRun run(tier, other, folder.path(), Earlier::keep_stopped);
+    ADD_FAILURE() << "not refused";
+  } catch (const InvalidInput& error) {
+    const std::string message = error.what();
+    for (const char* word : {"geometry.radius was 0.4 and is 0.5", "--replace", "--out"})
+      EXPECT_NE(message.find(word), std::string::npos) << message;
+  }
+  EXPECT_TRUE(has_checkpoint(folder.path()));
+  // Of the same scene and tier whoever leaves out --resume begins anew, and is told.
+  const auto warnings = StoredRun(tier, scene, folder.path(), Earlier::keep_stopped).warnings();
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings[0].find("--resume would have gone on"), std::string::npos) << warnings[0];
+  EXPECT_TRUE(has_checkpoint(folder.path())) << "nothing is written before the run begins";
+  StoredRun run(tier, other, folder.path(), Earlier::replace);
+  run.store(run.execute({}));
+  EXPECT_EQ(read_text(folder.path() / "observables.csv"), undisturbed(other));
+}
+
 TEST(StoredRun, GivingUpKeepsTheCheckpoint) {
   const Scene scene = scene_of();
   const ChaoticTier tier(95);
