@@ -18,8 +18,8 @@ namespace {
 constexpr double most_rows = 5e6;
 /// Fixed steps that some computer still takes within a week.
 constexpr double most_steps = 1e7;
-/// Pictures in fields/ that still make an animation; whether those of a mesh fit into memory is seen when it is
-/// there (observables::check_output_memory).
+/// Pictures in fields/ that still make an animation; whether those of a mesh fit into memory is seen when it
+/// is there (observables::check_output_memory).
 constexpr double most_field_times = 1e4;
 
 /// A key of the same name elsewhere, rather below the same table: a layer's stiffness for the wall's.
