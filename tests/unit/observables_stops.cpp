@@ -33,7 +33,7 @@ TEST(Stops, OfOneStateAreOne) {
 
 // 1601 rows of 26 numbers and 33 pictures of a million numbers, the former with 20 characters for each.
 TEST(Stops, AreHeldAgainstMemory) {
-  const Scene scene = scene_with("interval = 1e-3\nfield_interval = 0.05");
+  const Scene scene = scene_with("interval = 1e-3\nfield_interval = 0.05\nprofile_times = [0.6]");
   const auto all = stops(scene, period);
   ASSERT_EQ(std::count_if(all.begin(), all.end(), [](const Stop& stop) { return stop.is_row; }), 1601);
   ASSERT_EQ(std::count_if(all.begin(), all.end(), [](const Stop& stop) { return stop.is_field; }), 33);
