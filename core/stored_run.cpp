@@ -7,8 +7,8 @@
 
 #include "core/error.hpp"
 #include "core/inlet.hpp"
-#include "core/observables/beat_remarks.hpp"
 #include "core/memory.hpp"
+#include "core/observables/beat_remarks.hpp"
 #include "core/observables/inputs.hpp"
 #include "core/observables/record.hpp"
 
