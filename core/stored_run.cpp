@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <new>
 
 #include "core/error.hpp"
@@ -50,7 +51,8 @@ StoredRun::StoredRun(const Tier& tier, const Scene& scene, fs::path folder, Earl
   std::error_code unreadable;
   if (fs::is_directory(folder_, unreadable)) {
     try {
-      lock_.emplace(folder_);
+      // Processes whose mpirun has been killed end a second after it: who resumes at once is not refused.
+      lock_.emplace(folder_, std::chrono::seconds(earlier == Earlier::resume ? 4 : 0));
     } catch (const OutputFailure&) {
       // What is complete can be told where nothing can be written.
       if (earlier != Earlier::resume) throw;

@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <cstring>
 #include <string>
+#include <thread>
 
 #include "core/error.hpp"
 
@@ -47,7 +48,9 @@ bool is_still(const fs::path& file, int descriptor) {
 
 }  // namespace
 
-FolderLock::FolderLock(const fs::path& folder) : file_(folder / ".lock") {
+FolderLock::FolderLock(const fs::path& folder, std::chrono::milliseconds patience) : file_(folder / ".lock") {
+  using Clock = std::chrono::steady_clock;
+  const auto until = Clock::now() + patience;
   for (;;) {
     descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     if (descriptor_ < 0)
@@ -59,6 +62,11 @@ FolderLock::FolderLock(const fs::path& folder) : file_(folder / ".lock") {
         continue;
       }
       if (errno != EWOULDBLOCK) return;
+      if (Clock::now() < until) {
+        ::close(descriptor_);
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        continue;
+      }
       const std::string who = holder(descriptor_);
       ::close(descriptor_);
       throw InvalidInput(

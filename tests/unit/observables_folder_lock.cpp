@@ -5,6 +5,7 @@
 
 #include <csignal>
 #include <optional>
+#include <thread>
 
 #include "core/error.hpp"
 #include "core/observables/folder_lock.hpp"
@@ -54,6 +55,17 @@ TEST(FolderLock, EndsWithAProcessThatIsKilled) {
   ::waitpid(child, nullptr, 0);
   EXPECT_TRUE(fs::exists(folder.path() / ".lock")) << "nothing is tidied up by a process that is killed";
   EXPECT_EQ(refusal(folder.path()), "");
+}
+
+TEST(FolderLock, IsWaitedForWithPatience) {
+  const TemporaryFolder folder;
+  std::optional<FolderLock> lock(folder.path());
+  std::thread holder([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    lock.reset();
+  });
+  EXPECT_NO_THROW(FolderLock(folder.path(), std::chrono::seconds(20)));
+  holder.join();
 }
 
 // Processes that take the lock, hold it and let it go, each seeing whether it is alone.
