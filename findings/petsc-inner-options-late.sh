@@ -27,6 +27,10 @@ done
 export PYTHONPATH=$folder/usr/lib/python3/dist-packages:$folder/usr/lib/petscdir/petsc3.18/x86_64-linux-gnu-real/lib/python3/dist-packages
 libraries=$folder/usr/lib/x86_64-linux-gnu
 export LD_LIBRARY_PATH=$libraries:$libraries/blas:$libraries/lapack:$libraries/openmpi/lib
+# Open MPI looks for its parts where it was built, and for a helper that one process does without.
+export OPAL_PREFIX=$folder/usr OPAL_LIBDIR=$libraries/openmpi/lib OPAL_PKGDATADIR=$folder/usr/share/openmpi
+export OPAL_PKGLIBDIR=$libraries/openmpi/lib/openmpi3 PMIX_INSTALL_PREFIX=$libraries/pmix2
+export OMPI_MCA_ess_singleton_isolated=1 OMPI_MCA_mca_base_component_path=$libraries/openmpi/lib/openmpi3
 
 cat > options.py <<'PYTHON'
 import sys
