@@ -485,18 +485,18 @@ TEST_P(GivesUpInSpace, SayingWhenWhereAndWhyAndKeepsTheResults) {
       EXPECT_TRUE(std::isfinite(value) || observables::is_none(value)) << column.name;
 }
 
-const Arguments blow{"time.ramp=0",          "inlet.profile=natural", "outlet.resistance=0",
-                     "tether.stiffness=4e8", "geometry.radius=0.3",   "geometry.length=16"};
+const Arguments blow{"time.ramp=0", "inlet.waveform=pressure", "inlet.pressure=-9e6", "wall.law=EXP1"};
 const char* const nothing_holds = "tether.stiffness=0";
 INSTANTIATE_TEST_SUITE_P(
     , GivesUpInSpace,
-    testing::Values(Bad{"balloon",
-                        {"wall.law=neo-Hookean", nothing_holds},
-                        {"at t = 0.", "(beat 1)", "x = ", "y = ", "z = ", "cell", "carries at most 14.7"}},
-                    Bad{"collapse",
-                        {nothing_holds, "inlet.waveform=pressure", "inlet.pressure=-100 mmHg"},
-                        {"at t = 0.0", "(beat 1)", "x = ", "y = ", "z = ", "cell"}},
-                    Bad{"blow", blow, {"at t = 0 s (beat 1)", "smallest time step", "time.ramp = 0"}}),
+    testing::Values(
+        Bad{"balloon",
+            {"wall.law=neo-Hookean", nothing_holds},
+            {"at t = 0.", "(beat 1)", "x = ", "y = ", "z = ", "cell", "carries at most 14.7"}},
+        Bad{"collapse",
+            {nothing_holds, "inlet.waveform=pressure", "inlet.pressure=-100 mmHg"},
+            {"at t = 0.0", "(beat 1)", "x = ", "y = ", "z = ", "cell"}},
+        Bad{"blow", blow, {"(beat 1)", "smallest time step", "turned inside out", "time.ramp = 0"}}),
     [](const auto& instance) { return instance.param.name; });
 
 TEST(GivenUp, OnRanksAsAlone) {

@@ -43,10 +43,10 @@ TEST(ReturnCodes, OfMpiAreThoseOfTheCallThatFailed) {
 TEST(ReturnCodes, OfPetscNameTheCallAndTheReason) {
   OwnedVector vector;
   check(VecCreateSeq(PETSC_COMM_SELF, 2, vector.put()), "VecCreateSeq");
-  EXPECT_EQ(complaint_of([&] {
-              check(VecSetType(vector.get(), "no such type"), "VecSetType");
-            }).find("VecSetType: Unknown type"),
-            0U);
+  const std::string complaint =
+      complaint_of([&] { check(VecSetType(vector.get(), "no such type"), "VecSetType"); });
+  EXPECT_EQ(complaint.find("VecSetType: "), 0U) << complaint;
+  EXPECT_NE(complaint.find("no such type"), std::string::npos) << complaint;
 }
 
 }  // namespace
