@@ -144,8 +144,8 @@ TEST(NaturalInlet, ReachesItsLimitCycle) {
             1e-3 * range(values(given, "inflow")));
 }
 
-// A flow that is there at once is driven by a pressure that no step could find the error of. It sets off waves
-// between the inlet and the open outlet, which die, until what comes in goes out.
+// A flow that is there at once is driven by a pressure that no step could find the error of. It sets off
+// waves between the inlet and the open outlet, which die, until what comes in goes out.
 TEST(NaturalInlet, BearsAFlowThatComesAtOnce) {
   const auto result =
       run_axisym(parse_scene("[wall]\n", "at_once", ".",

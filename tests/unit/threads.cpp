@@ -34,7 +34,7 @@ TEST(Threads, ThatCannotStartAreDoneWithout) {
     long pages = 0;
     std::FILE* file = std::fopen("/proc/self/statm", "r");
     if (!file || std::fscanf(file, "%ld", &pages) != 1) ::_exit(2);
-    std::fclose(file);
+    if (std::fclose(file) != 0) ::_exit(2);
     const rlim_t room = static_cast<rlim_t>(pages) * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE)) + 2'000'000;
     const rlimit size{room, room};
     if (::setrlimit(RLIMIT_AS, &size) != 0) ::_exit(2);
