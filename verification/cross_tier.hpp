@@ -94,10 +94,10 @@ struct VerifyControl {
 /// each into a folder below `folder`, and compares what they found over the last whole beat, at the same
 /// places and times. Verdicts: a quantity agrees when the largest difference is within its limit (see
 /// yardstick). Beyond, it differs by the model when it is within the limit where the two models mean the same
-/// artery: then the difference comes from the effects that the links measure. Otherwise it disagrees or, where
-/// a rung gave up, is not explained. Throws InvalidInput when a tier cannot compute the scene, before anything
-/// is computed. A rung that cannot be taken is left out and named. A tier that gives up is named in failure();
-/// what can be compared still is.
+/// artery: then the difference comes from the effects that the links measure. Otherwise it disagrees or,
+/// where a rung gave up, is not explained. Throws InvalidInput when a tier cannot compute the scene, before
+/// anything is computed. A rung that cannot be taken is left out and named. A tier that gives up is named in
+/// failure(); what can be compared still is.
 CrossTier verify(const std::vector<const Tier*>& tiers, const SceneSource& scene,
                  const std::filesystem::path& folder, const VerifyControl& control = {},
                  const std::vector<Ladder>& between = ladders());
