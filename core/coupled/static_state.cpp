@@ -71,7 +71,7 @@ struct Patience {
 /// A wall that gives way moves on for ever; one that comes to rest takes a third of these.
 constexpr Patience to_the_end{600, std::numeric_limits<double>::infinity()};
 /// From an estimate it is soon there or not at all.
-constexpr Patience from_estimate{150, half};
+constexpr Patience from_estimate{90, half};
 
 /// Steady states on one mesh under the loads that a setup has at the time.
 class Solver {
