@@ -202,7 +202,8 @@ std::unique_ptr<Setup> setup_of(const Scene& scene, const Resolution& resolution
       return here->shape.axes(place);
     };
     for (auto& ring : rings) ring = radial::ring_model(scene, {});
-    setup->tube = tube_of(scene, *setup);
+    // A bend straightens under pressure, which the estimate of a tube misses by too much to lead anywhere.
+    if (spec.bend_angle == 0) setup->tube = tube_of(scene, *setup);
   }
   const bool with_blood = problem.mesh.has(Part::blood);
   coupled::set_conditions(scene, *setup, problem);

@@ -14,7 +14,7 @@
 
 namespace tunica::coupled {
 
-/// A straight or bent vessel of one circular section.
+/// A straight vessel of one circular section.
 struct Tube {
   /// A node in the unloaded vessel: along the centreline and from it, cm, and these directions in the
   /// components that the vessel's vectors have.
