@@ -17,14 +17,12 @@ void InletWatch::look(double time, const Throughflow& inlet) {
 }
 
 std::string InletWatch::finding() const {
-  if (leaving_ <= tolerated * greatest_) return {};
+  if (leaving_ <= std::max(still_, tolerated * greatest_)) return {};
   return fmt::format(
       "blood turns back on the inlet: at t = {:.4g} s {:.3g} cm3/s leave through a part of it while {:.3g} "
-      "cm3/s "
-      "come in, and what is computed downstream rests on a profile that nothing decides; prescribe a flow "
-      "with "
-      "inlet.profile = \"parabolic\", or drive it with inlet.pressure_kind = \"total\"",
-      time_, leaving_, entering_);
+      "cm3/s come in, and what is computed downstream rests on a profile that nothing decides; prescribe a "
+      "flow with inlet.profile = \"parabolic\"{}",
+      time_, leaving_, entering_, is_total_ ? "" : ", or drive it with inlet.pressure_kind = \"total\"");
 }
 
 void InletWatch::restore(const std::vector<double>& saved) {

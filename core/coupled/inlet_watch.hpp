@@ -17,6 +17,9 @@ class InletWatch {
   /// of a pulsatile flow in earnest stays below.
   static constexpr double tolerated = 0.01;
 
+  /// `still` is a flow that counts for none, cm3/s; `is_total` whether the inlet's pressure is a total one.
+  InletWatch(double still, bool is_total) : still_(still), is_total_(is_total) {}
+
   /// What goes through the inlet at a time, outwards from the vessel.
   void look(double time, const Throughflow& inlet);
   /// What a user should know, one line; empty when all is well.
@@ -27,6 +30,8 @@ class InletWatch {
   void restore(const std::vector<double>& saved);
 
  private:
+  double still_;
+  bool is_total_;
   double greatest_ = 0;                           ///< flow through the inlet, either way, cm3/s
   double time_ = 0, leaving_ = 0, entering_ = 0;  ///< when most left against the flow
 };

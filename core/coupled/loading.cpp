@@ -82,9 +82,6 @@ std::unique_ptr<const radial::RingModel> ring_of(const Scene& scene, double inne
 void estimate_sizes(const Scene& scene, std::unique_ptr<const radial::RingModel> ring, Loading& loading) {
   const double inlet = std::abs(loading.inlet_scale) * loading.inlet.greatest_shape();
   const double area = std::numbers::pi * loading.lumen_radius * loading.lumen_radius;
-  // Where hardly anything loads the vessel, what moves less than this is at rest: the last digits of zero
-  // have no accuracy that could be asked of them. A ten-thousandth of a mmHg, a micrometre a second.
-  constexpr double still_pressure = 0.1, still_velocity = 1e-4, still_displacement = 1e-6;
   loading.expected = {still_displacement * loading.lumen_radius, still_velocity, still_pressure};
   if (loading.inlet.is_pressure) {
     loading.expected_pressure = inlet;

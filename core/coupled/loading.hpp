@@ -27,6 +27,11 @@ struct Tube {
   std::function<Place(int node)> place;
 };
 
+/// Where hardly anything loads a vessel, what is less than this is at rest: the last digits of zero have no
+/// accuracy that could be asked of them. Pressure in dyn/cm2 (a hundredth of a mmHg), velocity in cm/s,
+/// displacement over the lumen's radius.
+inline constexpr double still_pressure = 10, still_velocity = 1e-2, still_displacement = 1e-4;
+
 /// What loads the vessel of a scene, and the sizes of what is to come of it. Stays where it was made: the
 /// functions of the conditions refer to it.
 struct Loading {

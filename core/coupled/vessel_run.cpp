@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "core/coupled/failure.hpp"
@@ -77,7 +78,9 @@ class VesselRun final : public TierRun {
         end_(stops_.back().time),
         simulation_(vessel_->equations(), options_of(scene, *vessel_, end_)),
         observer_(vessel_->observer()),
-        log_(event_places()) {
+        log_(event_places()),
+        inlet_watch_(still_velocity * std::numbers::pi * loading_.lumen_radius * loading_.lumen_radius,
+                     scene.text("inlet.pressure_kind") == "total") {
     prepare_tables();
     describe_run();
     result_.record.setup_seconds = seconds_since(began_);

@@ -15,6 +15,9 @@ namespace tunica::observables {
 
 namespace {
 
+/// Flow that counts for none, cm3/s.
+constexpr double still_flow = 1e-6;
+
 /// The last beat, or the only row of a static state. `last` is before `first` where there are no rows in it.
 Beat last_of(const Scene& scene, const Table& table) {
   Beat beat;
@@ -62,10 +65,11 @@ void remark_on_repetition(const Scene& scene, const Table& table, const Beat& be
     const char* text;
     double unit;
     const char* unit_text;
+    double still;  ///< what is smaller is rounding
   };
-  constexpr Watched all[] = {{"pressure", "the pressure", mmhg, "mmHg"},
-                             {"outflow", "the outflow", 1, "cm3/s"},
-                             {"radial_displacement.P1", "the inner radius", 1e-4, "um"}};
+  constexpr Watched all[] = {{"pressure", "the pressure", mmhg, "mmHg", 1e-2 * mmhg},
+                             {"outflow", "the outflow", 1, "cm3/s", still_flow},
+                             {"radial_displacement.P1", "the inner radius", 1e-4, "um", 1e-6}};
   const double noticed = std::max(0.01, scene.number("accuracy.tolerance"));
   std::vector<std::string> changes;
   for (const Watched& watched : all) {
@@ -73,7 +77,7 @@ void remark_on_repetition(const Scene& scene, const Table& table, const Beat& be
     const double change = value_at(table, watched.column, table.find("time")->values.back()) -
                           value_at(table, watched.column, beat.start);
     const double size = std::max(std::abs(over.lowest), std::abs(over.highest));
-    if (is_none(change) || !(std::abs(change) > noticed * size)) continue;
+    if (is_none(change) || !(std::abs(change) > std::max(noticed * size, watched.still))) continue;
     changes.push_back(fmt::format("{} {} by {:.3g} {} ({:.2g} % of its largest)", watched.text,
                                   change > 0 ? "rises" : "falls", std::abs(change) / watched.unit,
                                   watched.unit_text, 100 * std::abs(change) / size));
@@ -88,7 +92,8 @@ void remark_on_repetition(const Scene& scene, const Table& table, const Beat& be
 void remark_on_inflow(const Table& table, const Beat& beat, std::vector<std::string>& lines) {
   const double average = mean(table, "inflow", beat);
   const Range found = range(table, "inflow", beat);
-  const double noticed = 0.01 * std::max(std::abs(found.lowest), std::abs(found.highest));
+  const double noticed =
+      std::max(still_flow, 0.01 * std::max(std::abs(found.lowest), std::abs(found.highest)));
   if (is_none(average) || average >= -noticed) return;
   lines.push_back(
       fmt::format("blood leaves through the inlet: the mean inflow of the last beat is {:.3g} cm3/s; is the "

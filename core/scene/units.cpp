@@ -173,8 +173,9 @@ std::string suggestion_for(const UnitDatabase& database, std::string_view unit) 
   return {};
 }
 
-/// Whether a part of the unit is a mere number to UDUNITS: "ppm mmHg", "count/s".
+/// Whether a part of the unit is a mere number to UDUNITS: "ppm mmHg", "count/s", "% mmHg".
 bool holds_number_by_name(const UnitDatabase& database, std::string_view unit) {
+  if (unit.find('%') != std::string_view::npos) return true;
   const std::vector<std::string> names = names_in(unit);
   return std::any_of(names.begin(), names.end(), [&](const std::string& name) {
     const Unit part = database.parse(name);

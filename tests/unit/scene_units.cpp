@@ -94,7 +94,7 @@ TEST(Units, HoldNoNumbers) {
   for (const auto& [text, unit] : quantities) EXPECT_THROW(converted(text, unit), InvalidInput) << text;
   // Nor by name, nor by an angle.
   for (const char* text :
-       {"100 ppm mmHg", "100 count mmHg", "100 mmHg.percent", "100 mmHg rad", "100 deg mmHg"})
+       {"100 ppm mmHg", "100 count mmHg", "100 mmHg.percent", "100 % mmHg", "100 mmHg rad", "100 deg mmHg"})
     EXPECT_THROW(converted(text, "dyn/cm2"), InvalidInput) << text;
   try {
     convert_quantity("100 mmHg -10", "dyn/cm2", "outlet.pressure");
