@@ -3,12 +3,14 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/observables/checkpoint.hpp"
 #include "core/observables/result.hpp"
+#include "core/run/quantity.hpp"
 #include "core/scene/scene.hpp"
 
 namespace tunica {
@@ -55,6 +57,13 @@ class Tier {
   /// Sets the computation up. Throws InvalidInput for a scene that the tier cannot compute, before
   /// anything has been written.
   virtual std::unique_ptr<TierRun> prepare(const Scene& scene) const = 0;
+  /// The answer by a way that is shorter than a result's tables, as accurate as the scene asks; nullopt where
+  /// the tier has none for this question. Any number of threads may ask at once. Throws InvalidInput as
+  /// prepare does, and SolverFailure saying when and why.
+  virtual std::optional<run::Answer> answer(const Scene& /*scene*/, const run::Question& /*question*/,
+                                            const RunControl& /*control*/) const {
+    return std::nullopt;
+  }
 };
 
 /// The tiers of this build, the cheapest first.
