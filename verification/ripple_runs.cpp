@@ -54,7 +54,7 @@ struct Outcome {
 
 constexpr double visible = 0.01;  ///< of the thickness: from there on a ripple is one
 
-Outcome run(const std::filesystem::path& file, const Case& c) {
+Outcome outcome_of(const std::filesystem::path& file, const Case& c) {
   std::vector<double> times;
   for (double t = 0.01; t < end - 1e-9; t += 0.005) times.push_back(t);
   times.push_back(end - 1e-6);
@@ -141,7 +141,7 @@ int main(int count, char** arguments) {
     for (const Case& c : cases) {
       fmt::print("{}\n", name(c));
       std::fflush(stdout);
-      outcomes.push_back(run(arguments[2], c));
+      outcomes.push_back(outcome_of(arguments[2], c));
       const LumenLine& line = outcomes.back().lumen;
       for (std::size_t k = 0; k < line.z.size(); ++k)
         csv += fmt::format("\"{}\",{:.6g},{:.6g}\n", name(c), line.z[k], line.radius[k]);

@@ -60,7 +60,7 @@ struct Outcome {
   std::string ended;
 };
 
-Outcome run(const std::filesystem::path& file, const Case& of) {
+Outcome outcome_of(const std::filesystem::path& file, const Case& of) {
   std::vector<double> times;
   for (double t = 0.02; t < of.end - 1e-9; t += 0.002) times.push_back(t);
   std::vector<std::string> overrides = of.overrides;
@@ -203,7 +203,7 @@ int main(int count, char** arguments) {
     std::vector<Outcome> outcomes;
     // After every run, as they take long.
     for (const Case& of : cases()) {
-      outcomes.push_back(run(arguments[2], of));
+      outcomes.push_back(outcome_of(arguments[2], of));
       page.write(table(outcomes));
       write_whole(arguments[3], picture(outcomes));
       write_whole(arguments[4], csv(outcomes));
