@@ -25,6 +25,7 @@ using namespace tunica;
 class Full3dByName final : public Tier {
  public:
   std::string_view name() const override { return full3d::tier_name; }
+  bool computes() const override { return false; }
   std::string refusal(const Scene& scene) const override { return full3d::refusal(scene); }
   bool suits(const Scene& scene) const override { return full3d::suits(scene); }
   std::unique_ptr<TierRun> prepare(const Scene&) const override {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -17,7 +18,13 @@ class InvalidInput : public std::runtime_error {
 /// results so far and ends with exit code 3.
 class SolverFailure : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  explicit SolverFailure(const std::string& what, double time = std::numeric_limits<double>::quiet_NaN())
+      : std::runtime_error(what), time_(time) {}
+  /// Of the run, s; NaN where it is none of a time or is told elsewhere.
+  double time() const { return time_; }
+
+ private:
+  double time_;
 };
 
 /// Results that cannot be stored (full disk, folder without write permission). Names the path and
@@ -26,5 +33,8 @@ class OutputFailure : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
+
+/// Thrown out of a computation that its caller has interrupted.
+struct Interrupted {};
 
 }  // namespace tunica

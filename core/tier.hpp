@@ -50,6 +50,8 @@ class Tier {
  public:
   virtual ~Tier() = default;
   virtual std::string_view name() const = 0;
+  /// False for a tier that is here by name only: another program computes it.
+  virtual bool computes() const { return true; }
   /// Empty when the tier can compute the scene, otherwise the reason, naming key and remedy.
   virtual std::string refusal(const Scene& scene) const = 0;
   /// True when the tier's model is meant for the scene, so that `--tier auto` may choose it.
@@ -59,7 +61,7 @@ class Tier {
   virtual std::unique_ptr<TierRun> prepare(const Scene& scene) const = 0;
   /// The answer by a way that is shorter than a result's tables, as accurate as the scene asks; nullopt where
   /// the tier has none for this question. Any number of threads may ask at once. Throws InvalidInput as
-  /// prepare does, and SolverFailure saying when and why.
+  /// prepare does, SolverFailure saying when and why, and Interrupted.
   virtual std::optional<run::Answer> answer(const Scene& /*scene*/, const run::Question& /*question*/,
                                             const RunControl& /*control*/) const {
     return std::nullopt;

@@ -8,9 +8,6 @@
 
 namespace tunica::lumped {
 
-/// Thrown by a right-hand side to end the integration at once, and passed on by Integrator::advance.
-struct Interrupted {};
-
 struct IntegratorStatistics {
   long steps = 0;
   long newton_iterations = 0;

@@ -10,9 +10,9 @@
 #include "app/report/report.hpp"
 #include "app/result_folder.hpp"
 #include "app/tell.hpp"
-#include "app/tiers.hpp"
 #include "core/error.hpp"
 #include "core/observables/result.hpp"
+#include "core/run/choose_tier.hpp"
 #include "core/stored_run.hpp"
 
 namespace tunica {
@@ -27,7 +27,7 @@ constexpr const char* report_file = "report.html";
 
 int run_command(const RunArguments& arguments, const Program& program) {
   const Scene scene = read_scene(arguments.scene, arguments.overrides);
-  const Tier& tier = choose_tier(program.tiers(), arguments.tier, scene);
+  const Tier& tier = run::choose_tier(program.tiers(), arguments.tier, scene);
   program.before_computing({&tier});
   std::vector<std::string> parts;
   if (arguments.tier != "auto") parts.push_back(arguments.tier);

@@ -15,7 +15,6 @@
 #include "app/report/report.hpp"
 #include "app/result_folder.hpp"
 #include "app/tell.hpp"
-#include "app/tiers.hpp"
 #include "core/error.hpp"
 #include "core/observables/folder_lock.hpp"
 #include "verification/cross_tier.hpp"

@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/observables/record.hpp"
+#include "core/units.hpp"
 
 namespace tunica::observables {
 
@@ -82,6 +83,19 @@ Beat last_beat(const StoredResult& stored) {
   return beat;
 }
 
+Beat last_beat(const Scene& scene, const Table& table) {
+  Beat beat;
+  const std::vector<double>& time = table.find("time")->values;
+  beat.last = time.size() - 1;
+  if (scene.text("time.mode") == "static") return beat;
+  beat.period = scene.number("inlet.period");
+  beat.start = static_cast<double>(scene.integer("time.beats") - 1) * beat.period;
+  const double slack = 1e-9 * beat.period;
+  beat.first =
+      static_cast<std::size_t>(std::lower_bound(time.begin(), time.end(), beat.start - slack) - time.begin());
+  return beat;
+}
+
 Range range(const Table& table, std::string_view column, const Beat& beat) {
   Range found;
   if (const auto* values = numbers(table, column))
@@ -119,6 +133,36 @@ double peak_time(const Table& table, std::string_view column, const Beat& beat) 
   const double curvature = fall_left * right + fall_right * left;
   if (!(curvature > 0)) return (*time)[top];
   return (*time)[top] + 0.5 * (fall_left * right * right - fall_right * left * left) / curvature;
+}
+
+double mean(const Table& table, std::string_view column, const Beat& beat) {
+  const auto* time = numbers(table, "time");
+  const auto* values = numbers(table, column);
+  if (!time || !values || values->empty()) return none;
+  if (beat.first == beat.last) return (*values)[beat.last];
+  double sum = 0;
+  for (std::size_t row = beat.first; row < beat.last; ++row)
+    sum += 0.5 * ((*values)[row] + (*values)[row + 1]) * ((*time)[row + 1] - (*time)[row]);
+  return sum / ((*time)[beat.last] - (*time)[beat.first]);
+}
+
+std::vector<Unrepeated> unrepeated(const Table& table, const Beat& beat, double noticed) {
+  struct Watched {
+    std::string_view column;
+    double still;  ///< what is smaller is rounding
+  };
+  constexpr Watched all[] = {
+      {"pressure", 1e-2 * mmhg}, {"outflow", still_flow}, {"radial_displacement.P1", 1e-6}};
+  std::vector<Unrepeated> found;
+  for (const auto& [column, still] : all) {
+    const Range over = range(table, column, beat);
+    const auto* values = numbers(table, column);
+    if (!values || is_none(over.lowest)) continue;
+    const double change = (*values)[beat.last] - (*values)[beat.first];
+    const double size = std::max(std::abs(over.lowest), std::abs(over.highest));
+    if (std::abs(change) > std::max(noticed * size, still)) found.push_back({column, change, size});
+  }
+  return found;
 }
 
 std::vector<std::pair<double, double>> recruited_intervals(const Result& result, int point, double from,

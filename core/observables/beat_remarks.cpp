@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "core/observables/beat.hpp"
 #include "core/scene/living.hpp"
@@ -14,34 +15,6 @@
 namespace tunica::observables {
 
 namespace {
-
-/// Flow that counts for none, cm3/s.
-constexpr double still_flow = 1e-6;
-
-/// The last beat, or the only row of a static state. `last` is before `first` where there are no rows in it.
-Beat last_of(const Scene& scene, const Table& table) {
-  Beat beat;
-  const std::vector<double>& time = table.find("time")->values;
-  beat.last = time.size() - 1;
-  if (scene.text("time.mode") == "static") return beat;
-  beat.period = scene.number("inlet.period");
-  beat.start = static_cast<double>(scene.integer("time.beats") - 1) * beat.period;
-  const double slack = 1e-9 * beat.period;
-  beat.first =
-      static_cast<std::size_t>(std::lower_bound(time.begin(), time.end(), beat.start - slack) - time.begin());
-  return beat;
-}
-
-/// Mean over the rows of a beat by the trapezoidal rule; `none` without values.
-double mean(const Table& table, std::string_view name, const Beat& beat) {
-  const std::vector<double>& time = table.find("time")->values;
-  const std::vector<double>& values = table.find(name)->values;
-  if (beat.first == beat.last) return values[beat.last];
-  double sum = 0;
-  for (std::size_t row = beat.first; row < beat.last; ++row)
-    sum += 0.5 * (values[row] + values[row + 1]) * (time[row + 1] - time[row]);
-  return sum / (time[beat.last] - time[beat.first]);
-}
 
 void remark_on_pressure(const Table& table, const Beat& beat, std::vector<std::string>& lines) {
   const Range found = range(table, "pressure", beat);
@@ -60,27 +33,23 @@ void remark_on_pressure(const Table& table, const Beat& beat, std::vector<std::s
 
 void remark_on_repetition(const Scene& scene, const Table& table, const Beat& beat,
                           std::vector<std::string>& lines) {
-  struct Watched {
-    const char* column;
+  struct Shown {
+    std::string_view column;
     const char* text;
     double unit;
     const char* unit_text;
-    double still;  ///< what is smaller is rounding
   };
-  constexpr Watched all[] = {{"pressure", "the pressure", mmhg, "mmHg", 1e-2 * mmhg},
-                             {"outflow", "the outflow", 1, "cm3/s", still_flow},
-                             {"radial_displacement.P1", "the inner radius", 1e-4, "um", 1e-6}};
-  const double noticed = std::max(0.01, scene.number("accuracy.tolerance"));
+  constexpr Shown all[] = {{"pressure", "the pressure", mmhg, "mmHg"},
+                           {"outflow", "the outflow", 1, "cm3/s"},
+                           {"radial_displacement.P1", "the inner radius", 1e-4, "um"}};
   std::vector<std::string> changes;
-  for (const Watched& watched : all) {
-    const Range over = range(table, watched.column, beat);
-    const double change = value_at(table, watched.column, table.find("time")->values.back()) -
-                          value_at(table, watched.column, beat.start);
-    const double size = std::max(std::abs(over.lowest), std::abs(over.highest));
-    if (is_none(change) || !(std::abs(change) > std::max(noticed * size, watched.still))) continue;
-    changes.push_back(fmt::format("{} {} by {:.3g} {} ({:.2g} % of its largest)", watched.text,
-                                  change > 0 ? "rises" : "falls", std::abs(change) / watched.unit,
-                                  watched.unit_text, 100 * std::abs(change) / size));
+  for (const Unrepeated& found :
+       unrepeated(table, beat, std::max(0.01, scene.number("accuracy.tolerance")))) {
+    const Shown& shown = *std::find_if(std::begin(all), std::end(all),
+                                       [&](const Shown& s) { return s.column == found.column; });
+    changes.push_back(fmt::format("{} {} by {:.3g} {} ({:.2g} % of its largest)", shown.text,
+                                  found.change > 0 ? "rises" : "falls", std::abs(found.change) / shown.unit,
+                                  shown.unit_text, 100 * std::abs(found.change) / found.size));
   }
   if (!changes.empty())
     lines.push_back(
@@ -108,7 +77,7 @@ std::vector<std::string> beat_remarks(const Scene& scene, bool pressure_is_given
   const Table& table = result.observables;
   if (!result.record.converged || table.rows() == 0) return lines;
   const bool is_static = scene.text("time.mode") == "static";
-  const Beat beat = last_of(scene, table);
+  const Beat beat = last_beat(scene, table);
   if (beat.first > beat.last) return lines;
   const bool has_resistance = scene.number("outlet.resistance") > 0 || scene.text("outlet.kind") == "rcr";
   if (!pressure_is_given && has_resistance) remark_on_pressure(table, beat, lines);

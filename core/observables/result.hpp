@@ -161,6 +161,9 @@ void write_result(const std::filesystem::path& folder, const Scene& scene, const
 
 inline constexpr const char* record_file = "record.json";
 
+/// What record.json is to say of a run, with the memory that the process has used.
+nlohmann::ordered_json make_record(const Scene& scene, const RunRecord& run);
+
 /// record.json of a folder written by write_result. Throws InvalidInput when it is missing or broken.
 nlohmann::ordered_json read_record(const std::filesystem::path& folder);
 

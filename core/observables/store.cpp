@@ -126,37 +126,6 @@ long peak_memory_bytes() {
   return usage.ru_maxrss * 1024L;
 }
 
-std::string record_text(const Scene& scene, const RunRecord& run) {
-  Json record;
-  record["program"] = "tunica";
-  record["version"] = program_version();
-  record["commit"] = program_commit();
-  record["name"] = scene.name();
-  record["tier"] = run.tier;
-  record["resolution"] = run.resolution;
-  record["unknowns"] = run.unknowns;
-  record["steps"] = run.steps;
-  record["newton_iterations"] = run.newton_iterations;
-  record["linear_iterations"] = run.linear_iterations;
-  record["rejected_steps"] = run.rejected_steps;
-  record["seconds"] = {{"setup", run.setup_seconds}, {"solve", run.solve_seconds}};
-  if (!observables::is_none(run.median_step_seconds))
-    record["seconds"]["median_step"] = run.median_step_seconds;
-  record["peak_memory_bytes"] = peak_memory_bytes();
-  record["converged"] = run.converged;
-  record["interrupted"] = run.interrupted;
-  record["failure"] = run.failure;
-  record["remarks"] = run.remarks;
-  record["findings"] = run.findings;
-  record["input_files"] = run.input_files;
-  Json set_keys;
-  record["scene"] = scene_to_json(scene, set_keys);
-  record["scene_set"] = std::move(set_keys);
-  record["scene_toml"] = describe(scene);
-  // File names, and so scene names, need not be UTF-8; a replaced byte is better than no record.
-  return record.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-}
-
 /// Whether the mesh of a file's fields, which stands near its beginning, has cells in space.
 bool is_in_space(const fs::path& file) {
   std::string head(4096, '\0');
@@ -208,6 +177,36 @@ void make_result_folder(const fs::path& folder) {
   if (probe.descriptor() < 0) fail(folder, "files cannot be made in this folder", errno);
 }
 
+Json make_record(const Scene& scene, const RunRecord& run) {
+  Json record;
+  record["program"] = "tunica";
+  record["version"] = program_version();
+  record["commit"] = program_commit();
+  record["name"] = scene.name();
+  record["tier"] = run.tier;
+  record["resolution"] = run.resolution;
+  record["unknowns"] = run.unknowns;
+  record["steps"] = run.steps;
+  record["newton_iterations"] = run.newton_iterations;
+  record["linear_iterations"] = run.linear_iterations;
+  record["rejected_steps"] = run.rejected_steps;
+  record["seconds"] = {{"setup", run.setup_seconds}, {"solve", run.solve_seconds}};
+  if (!observables::is_none(run.median_step_seconds))
+    record["seconds"]["median_step"] = run.median_step_seconds;
+  record["peak_memory_bytes"] = peak_memory_bytes();
+  record["converged"] = run.converged;
+  record["interrupted"] = run.interrupted;
+  record["failure"] = run.failure;
+  record["remarks"] = run.remarks;
+  record["findings"] = run.findings;
+  record["input_files"] = run.input_files;
+  Json set_keys;
+  record["scene"] = scene_to_json(scene, set_keys);
+  record["scene_set"] = std::move(set_keys);
+  record["scene_toml"] = describe(scene);
+  return record;
+}
+
 void write_result(const fs::path& folder, const Scene& scene, const Result& result) {
   make_result_folder(folder);
   remove_file(folder / record_file);
@@ -220,7 +219,9 @@ void write_result(const fs::path& folder, const Scene& scene, const Result& resu
       write_whole(folder / file.name, observables::to_csv(table));
   }
   write_fields(folder / fields_folder, result.fields);
-  write_whole(folder / record_file, record_text(scene, result.record));
+  // File names, and so scene names, need not be UTF-8; a replaced byte is better than no record.
+  write_whole(folder / record_file,
+              make_record(scene, result.record).dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 Json read_record(const fs::path& folder) {

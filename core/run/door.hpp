@@ -9,6 +9,7 @@
 
 #include "core/run/quantity.hpp"
 #include "core/run/scene_source.hpp"
+#include "core/stored_run.hpp"
 #include "core/tier.hpp"
 
 namespace tunica::run {
@@ -16,7 +17,7 @@ namespace tunica::run {
 /// One computation: a scene with overrides, by a tier.
 struct Case {
   std::string tier = "auto";
-  std::vector<std::string> overrides;  ///< after those of the source
+  std::vector<std::string> overrides = {};  ///< after those of the source
 };
 
 enum class Ending {
@@ -30,49 +31,75 @@ const char* name_of(Ending ending);
 
 /// What a computation took.
 struct Cost {
-  double wall_seconds = 0;  ///< set-up included; of a process from its start to its end
-  double cpu_seconds = observables::none;  ///< of a process, or of the thread that computed
+  double wall_seconds = 0;                 ///< set-up included; of a process from its start to its end
+  double cpu_seconds = observables::none;  ///< of a process
   double mebibytes = observables::none;    ///< largest resident set, of a process
 };
 
 struct Outcome {
   Ending ending = Ending::done;
-  std::string reason;                ///< one line, empty when done
-  double time = observables::none;   ///< s of the run, to which it came; none when nothing was computed
-  std::string tier;                  ///< that computed
-  Answer answer;                     ///< empty unless done
+  std::string reason;               ///< one line, empty when done
+  double time = observables::none;  ///< s of the run, to which it came; `none` where it did not begin
+  std::string tier;                 ///< that computed; empty for a scene or tier that is refused
+  Answer answer;                    ///< of ask(), when done
   Cost cost;
   std::optional<StoredResult> stored;  ///< of compute(): what there is
 };
 
+/// Where a whole result is kept, and what becomes of what lies there.
+struct Keep {
+  std::filesystem::path folder;  ///< empty: nowhere, or in the door's cache
+  Earlier earlier = Earlier::resume;
+  /// Adds to the folder when the result is there, before others may use it.
+  std::function<void(const std::filesystem::path&)> beside = [](const std::filesystem::path&) {};
+};
+
+/// What a caller of compute() is told besides progress.
+struct Watch : RunControl {
+  /// Before anything is computed: what a user should know, one line each. Not called where a whole result was
+  /// there already.
+  std::function<void(const Scene&, const std::vector<std::string>& warnings)> begin =
+      [](const Scene&, const std::vector<std::string>&) {};
+  /// That a checkpoint could not be written; the run goes on.
+  std::function<void(const std::string&)> not_saved = [](const std::string&) {};
+};
+
 struct DoorOptions {
-  /// The program that computes what this process cannot, and all where `processes` is set.
-  std::filesystem::path program;
+  /// The program that computes what this process cannot, and everything where `processes` is set.
+  std::filesystem::path program = {};
   /// Each case in a process of its own, so that its cost is known from outside.
   bool processes = false;
-  int ranks = 1;                ///< by mpirun, of tiers that can use them
-  std::filesystem::path cache;  ///< folder of whole results by what decides them; empty for none
+  int ranks = 1;  ///< of the processes of tiers that this program does not compute; more than 1: by mpirun
+  /// Folder in which whole results without a folder of their own are kept by what decides them (scene, tier,
+  /// contents of files, version and commit of the program), and taken from; empty for none.
+  std::filesystem::path cache = {};
 };
 
 /// The one door through which cases are computed: in process by the tiers of this program, by a process of
-/// their own where the tier is here by name only. A case that fails is an outcome with its reason, never an
-/// exception. Any number of threads may ask at once.
+/// their own where a tier is here by name only. A case that cannot be computed, or that gives up, is an
+/// outcome with its reason and no exception. Any number of threads may ask at once.
 class Door {
  public:
   /// The tiers must outlive it.
   Door(const TierList& tiers, SceneSource source, DoorOptions options = {});
 
-  /// Quantities and gradients, by the tier's own short way where it has one.
+  /// Quantities and gradients, by the tier's own short way where it has one. Throws OutputFailure where a
+  /// process that is needed has no room for its result.
   Outcome ask(const Case& what, const Question& question, const RunControl& control = {}) const;
 
-  /// The whole result, kept in `folder`, or in the cache or nowhere where it is empty.
-  Outcome compute(const Case& what, const std::filesystem::path& folder = {},
-                  const RunControl& control = {}) const;
+  /// The whole result. Throws OutputFailure where it cannot be kept.
+  Outcome compute(const Case& what, const Keep& keep = {}, const Watch& watch = {}) const;
 
   const SceneSource& source() const { return source_; }
   const TierList& tiers() const { return tiers_; }
+  const DoorOptions& options() const { return options_; }
 
  private:
+  bool needs_process(const Tier& tier) const { return options_.processes || !tier.computes(); }
+  Outcome by_process(const Case& what, const Scene& scene, const Tier& tier, const Keep& keep,
+                     const RunControl& control) const;
+  std::filesystem::path cached(const Scene& scene, const Tier& tier) const;
+
   const TierList& tiers_;
   SceneSource source_;
   DoorOptions options_;

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/observables/beat.hpp"
 #include "core/observables/result.hpp"
 
 namespace tunica::run {
@@ -22,7 +23,9 @@ enum class Statistic {
   on,         ///< of recruitment: s in the beat at which fibres are first recruited; none where they are not
   off,        ///< of recruitment: s in the beat at which that first interval ends
   max_place,  ///< of von_mises: where its greatest maximum is, 1 to wall_points for P1..P4
-  periodic    ///< of beat: 1 where every observable ends the beat within 1 % of its range of where it began
+  /// Of beat: 1 where pressure, outflow and radial_displacement.P1 end it within 1 % of their largest magnitude
+  /// of where they began it (observables::unrepeated), else 0.
+  periodic
 };
 
 /// A number of a run, named OBSERVABLE.STATISTIC: "pressure.max", "fiber_angle.P1.change",
@@ -53,7 +56,14 @@ struct Answer {
   std::vector<std::vector<double>> gradients;  ///< by quantity and key, in the units of both
 };
 
-/// The answer that a result's tables hold, over its last whole beat; gradients from its sensitivities.
+/// The answer that a result's tables hold over a beat. Extremes are those of the parabola through the rows
+/// next to them. Gradients come from the result's sensitivities: an extreme moves as the observable does at
+/// its time (its own time moves to first order without effect), the time of an extreme by
+/// -(d2y/dt dkey) / (d2y/dt2), a first interval of recruitment with its events. `none` where there are no
+/// sensitivities by a key. Throws InvalidInput when there are no rows.
+Answer answer_of(const Result& result, const observables::Beat& beat, const Question& question);
+
+/// The same over the last whole beat of a result that was read back.
 Answer answer_of(const StoredResult& stored, const Question& question);
 
 }  // namespace tunica::run
