@@ -11,7 +11,6 @@
 
 #include "core/error.hpp"
 #include "core/observables/record.hpp"
-#include "core/stored_run.hpp"
 
 namespace tunica::verification {
 
@@ -30,21 +29,20 @@ std::vector<std::string> joined(std::vector<std::string> first, const std::vecto
 /// Makes the runs of a verification and keeps them in `found`.
 class Maker {
  public:
-  Maker(const SceneSource& scene, const fs::path& folder, const VerifyControl& control, CrossTier& found)
-      : read_(scene), folder_(folder), control_(control), found_(found) {}
+  Maker(const run::Door& door, const fs::path& folder, const VerifyControl& control, CrossTier& found)
+      : door_(door), folder_(folder), control_(control), found_(found) {}
 
   /// The scene as it is, with each tier. All are set up before the first is computed.
   void make_tiers(const std::vector<const Tier*>& tiers) {
-    const Scene scene = read_({});
-    std::vector<std::unique_ptr<StoredRun>> runs;
+    const Scene& scene = door_.source().scene();
+    std::vector<std::unique_ptr<run::Prepared>> runs;
     for (const Tier* tier : tiers) {
       if (const std::string reason = tier->refusal(scene); !reason.empty())
         throw InvalidInput(fmt::format("{}: tier {}: {}", scene.name(), tier->name(), reason));
-      runs.push_back(std::make_unique<StoredRun>(*tier, scene, folder_ / tier->name(), earlier()));
+      runs.push_back(door_.prepare(*tier, {}, keep(std::string(tier->name()))));
     }
     for (std::size_t k = 0; k < tiers.size() && !found_.interrupted; ++k)
-      found_.tiers.push_back(
-          execute(*runs[k], std::string(tiers[k]->name()), *tiers[k], "as the scene says"));
+      found_.tiers.push_back(execute(*runs[k], std::string(tiers[k]->name()), "as the scene says"));
   }
 
   /// Rungs of one tier, with what each measures, from the scene as it is on.
@@ -60,14 +58,14 @@ class Maker {
       const std::string name = fmt::format("{}, {}", tier.name(), fmt::join(rung.overrides, ", "));
       const std::vector<std::string> overrides = joined(taken, rung.overrides);
       try {
-        const Scene before = read_(joined(taken, lean));
-        const Scene scene = read_(joined(overrides, lean));
+        const Scene before = door_.source().with(joined(taken, lean));
+        const Scene scene = door_.source().with(joined(overrides, lean));
         if (rung.is_there(before) || scene.values() == before.values()) {
           comparison.left_out.push_back(fmt::format("{}: no change to this scene", name));
           continue;
         }
         if (const std::string reason = tier.refusal(scene); !reason.empty()) throw InvalidInput(reason);
-        const std::size_t run = rung_run(tier, scene, rung, overrides);
+        const std::size_t run = rung_run(tier, rung, overrides);
         if (found_.interrupted) break;
         if (!found_.runs[run].is_comparable()) {
           comparison.rung_gave_up = true;
@@ -84,10 +82,14 @@ class Maker {
   }
 
  private:
-  Earlier earlier() const { return control_.replace ? Earlier::replace : Earlier::keep_stopped; }
+  run::Keep keep(const std::string& id) const {
+    run::Keep all;
+    all.folder = folder_ / id;
+    all.earlier = control_.replace ? Earlier::replace : Earlier::keep_stopped;
+    return all;
+  }
 
-  std::size_t rung_run(const Tier& tier, const Scene& scene, const Rung& rung,
-                       const std::vector<std::string>& overrides) {
+  std::size_t rung_run(const Tier& tier, const Rung& rung, const std::vector<std::string>& overrides) {
     const std::string id = fmt::format("{}-{}", tier.name(), rung.id);
     const std::string how = fmt::format("{}", fmt::join(overrides, ", "));
     // Ladders to different tiers may share a rung.
@@ -95,28 +97,26 @@ class Maker {
       return run.id == id && run.label == fmt::format("{}, {}", tier.name(), how);
     });
     if (made != found_.runs.end()) return static_cast<std::size_t>(made - found_.runs.begin());
-    StoredRun run(tier, scene, folder_ / id, earlier());
-    return execute(run, id, tier, how);
+    return execute(*door_.prepare(tier, joined(overrides, lean), keep(id)), id, how);
   }
 
-  std::size_t execute(StoredRun& computation, std::string id, const Tier& tier, const std::string& how) {
+  std::size_t execute(run::Prepared& computation, std::string id, const std::string& how) {
     VerifiedRun run;
     run.id = std::move(id);
-    run.tier = tier.name();
-    run.label = fmt::format("{}, {}", tier.name(), how);
+    run.tier = computation.tier().name();
+    run.label = fmt::format("{}, {}", run.tier, how);
     control_.begin(run.label);
     RunControl control;
     control.report = control_.report;
     control.interrupted = control_.interrupted;
     warn_once(computation.warnings());
-    const Result result = computation.execute(control);
-    warn_once(result.record.findings);
-    computation.store(result);
-    run.stored = read_result(computation.folder());
-    found_.interrupted = result.record.interrupted;
-    if (!result.record.failure.empty())
-      run.trouble = fmt::format("the solver gave up {}", result.record.failure);
-    else if (result.record.interrupted)
+    run::Outcome outcome = computation.execute(control);
+    run.stored = std::move(*outcome.stored);
+    warn_once(run.stored.record.at("findings"));
+    found_.interrupted = outcome.ending == run::Ending::interrupted;
+    if (outcome.ending == run::Ending::gave_up)
+      run.trouble = fmt::format("the solver gave up {}", outcome.reason);
+    else if (found_.interrupted)
       run.trouble = "interrupted";
     else if (!(run.beat = observables::last_beat(run.stored)).whole)
       run.trouble = "the run is shorter than a beat";
@@ -129,7 +129,7 @@ class Maker {
       if (told_.insert(line).second) control_.warn(line);
   }
 
-  const SceneSource& read_;
+  const run::Door& door_;
   const fs::path& folder_;
   const VerifyControl& control_;
   CrossTier& found_;
@@ -236,14 +236,14 @@ void compare(TierComparison& comparison, const std::vector<VerifiedRun>& runs, d
   }
 }
 
-CrossTier verify(const std::vector<const Tier*>& tiers, const SceneSource& scene, const fs::path& folder,
+CrossTier verify(const run::Door& door, const std::vector<const Tier*>& tiers, const fs::path& folder,
                  const VerifyControl& control, const std::vector<Ladder>& between) {
   if (tiers.size() < 2) throw std::logic_error("a verification needs two tiers");
   CrossTier found;
-  const Scene as_it_is = scene({});
+  const Scene& as_it_is = door.source().scene();
   found.scene = as_it_is.name();
   found.tolerance = as_it_is.number("accuracy.tolerance");
-  Maker maker(scene, folder, control, found);
+  Maker maker(door, folder, control, found);
   maker.make_tiers(tiers);
   if (found.interrupted) return found;
 

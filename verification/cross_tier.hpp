@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/run/door.hpp"
 #include "core/tier.hpp"
 #include "verification/claims.hpp"
 #include "verification/difference.hpp"
@@ -77,9 +78,6 @@ struct CrossTier {
   std::string failure() const;
 };
 
-/// Reads the scene with further overrides ("key=value") on top of the user's.
-using SceneSource = std::function<Scene(const std::vector<std::string>&)>;
-
 /// What a verification tells while it runs.
 struct VerifyControl {
   std::function<void(const std::string& label)> begin = [](const std::string&) {};  ///< before each run
@@ -90,7 +88,7 @@ struct VerifyControl {
   bool replace = false;  ///< also runs of other scenes that were stopped and could be resumed
 };
 
-/// Computes the scene with every tier (the reference last) and with the rungs of the ladders between them,
+/// Computes the door's scene with every tier (the reference last) and with the rungs of the ladders between them,
 /// each into a folder below `folder`, and compares what they found over the last whole beat, at the same
 /// places and times. Verdicts: a quantity agrees when the largest difference is within its limit (see
 /// yardstick). Beyond, it differs by the model when it is within the limit where the two models mean the same
@@ -98,7 +96,7 @@ struct VerifyControl {
 /// where a rung gave up, is not explained. Throws InvalidInput when a tier cannot compute the scene, before
 /// anything is computed. A rung that cannot be taken is left out and named. A tier that gives up is named in
 /// failure(); what can be compared still is.
-CrossTier verify(const std::vector<const Tier*>& tiers, const SceneSource& scene,
+CrossTier verify(const run::Door& door, const std::vector<const Tier*>& tiers,
                  const std::filesystem::path& folder, const VerifyControl& control = {},
                  const std::vector<Ladder>& between = ladders());
 

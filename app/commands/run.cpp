@@ -13,7 +13,7 @@
 #include "core/error.hpp"
 #include "core/observables/result.hpp"
 #include "core/run/choose_tier.hpp"
-#include "core/stored_run.hpp"
+#include "core/run/door.hpp"
 
 namespace tunica {
 
@@ -26,7 +26,8 @@ constexpr const char* report_file = "report.html";
 }  // namespace
 
 int run_command(const RunArguments& arguments, const Program& program) {
-  const Scene scene = read_scene(arguments.scene, arguments.overrides);
+  const run::Door door(program.tiers(), run::SceneSource(arguments.scene, arguments.overrides));
+  const Scene& scene = door.source().scene();
   const Tier& tier = run::choose_tier(program.tiers(), arguments.tier, scene);
   program.before_computing({&tier});
   std::vector<std::string> parts;
@@ -34,54 +35,56 @@ int run_command(const RunArguments& arguments, const Program& program) {
   const fs::path folder = arguments.out.empty() ? result_folder(scene.name(), parts, arguments.overrides)
                                                 : fs::path(arguments.out);
   heed_interrupts(arguments.quiet);
+  run::Keep keep;
+  keep.folder = folder;
+  keep.earlier = arguments.resume    ? Earlier::resume
+                 : arguments.replace ? Earlier::replace
+                                     : Earlier::keep_stopped;
+  keep.derived = {report_file};
+  keep.beside = [&](const fs::path&, const Result& result) {
+    if (arguments.report && result.observables.rows() > 0)
+      write_whole(folder / report_file, make_report({read_result(folder)}));
+  };
   // A scene that the tier refuses leaves nothing behind: the folder is made when the run is executed.
-  StoredRun run(tier, scene, folder,
-                arguments.resume    ? Earlier::resume
-                : arguments.replace ? Earlier::replace
-                                    : Earlier::keep_stopped);
+  const auto run = door.prepare(tier, {}, keep);
   // Of a scene that is refused nothing else is said.
   if (!arguments.quiet)
     for (const auto& remark : scene.remarks()) spdlog::warn(remark);
-  if (run.is_complete()) {
+  if (run->is_complete()) {
     if (!arguments.quiet) fmt::print("{}: this run is complete\n", folder.string());
     return done;
   }
   if (!arguments.quiet)
-    for (const auto& warning : run.warnings()) spdlog::warn(warning);
+    for (const auto& warning : run->warnings()) spdlog::warn(warning);
   computation_begins();
-  Result result;
+  run::Outcome outcome;
   {
     ProgressDisplay display(arguments.quiet);
     RunControl control;
     control.report = [&](const Progress& progress) { display.show(progress); };
     control.interrupted = stop_asked;
-    result = run.execute(control, [&](const std::string& failure) {
+    outcome = run->execute(control, [&](const std::string& failure) {
       if (!arguments.quiet) spdlog::warn("the run goes on, but cannot be resumed from here: {}", failure);
     });
   }
-  // A report that was made of an earlier result must not stand beside this one.
-  std::error_code no_report;
-  fs::remove(folder / report_file, no_report);
-  run.store(result, [&] {
-    if (arguments.report && result.observables.rows() > 0)
-      write_whole(folder / report_file, make_report({read_result(folder)}));
-  });
 
-  const RunRecord& record = result.record;
+  const auto& record = outcome.stored->record;
   if (!arguments.quiet)
-    for (const auto& finding : record.findings) spdlog::warn(finding);
+    for (const std::string finding : record.at("findings")) spdlog::warn(finding);
   if (!arguments.quiet)
     tell(fmt::format(
              "{}: tier {}, {} rows, {} steps, {} Newton iterations, set-up {:.1f} ms, solver {:.1f} ms\n",
-             folder.string(), record.tier, result.observables.rows(), record.steps, record.newton_iterations,
-             1e3 * record.setup_seconds, 1e3 * record.solve_seconds),
+             folder.string(), outcome.tier, outcome.stored->result.observables.rows(),
+             record.at("steps").get<long>(), record.at("newton_iterations").get<long>(),
+             1e3 * record.at("seconds").at("setup").get<double>(),
+             1e3 * record.at("seconds").at("solve").get<double>()),
          stdout);
-  if (!record.failure.empty()) {
+  if (outcome.ending == run::Ending::gave_up) {
     tell(fmt::format("tunica: {}: the solver gave up {}; results up to there are in {}\n", scene.name(),
-                     record.failure, folder.string()));
+                     outcome.reason, folder.string()));
     return gave_up;
   }
-  if (record.interrupted) {
+  if (outcome.ending == run::Ending::interrupted) {
     tell(fmt::format("tunica: {}: interrupted; results so far are in {}, --resume {}\n", scene.name(),
                      folder.string(), has_checkpoint(folder) ? "completes them" : "begins again"));
     return interrupted;

@@ -72,12 +72,8 @@ void remove_earlier(const fs::path& folder) {
 }  // namespace
 
 int verify_command(const VerifyArguments& arguments, const Program& program) {
-  const auto read = [&](const std::vector<std::string>& more) {
-    std::vector<std::string> overrides = arguments.overrides;
-    overrides.insert(overrides.end(), more.begin(), more.end());
-    return read_scene(arguments.scene, overrides);
-  };
-  const Scene scene = read({});
+  const run::Door door(program.tiers(), run::SceneSource(arguments.scene, arguments.overrides));
+  const Scene& scene = door.source().scene();
   std::vector<std::string> refused;
   const auto compared = chosen(program.tiers(), arguments.tiers, scene, refused);
   program.before_computing(compared);
@@ -119,7 +115,7 @@ int verify_command(const VerifyArguments& arguments, const Program& program) {
       display = std::make_unique<ProgressDisplay>(arguments.quiet);
       if (!arguments.quiet) spdlog::warn(line);
     };
-    found = verification::verify(compared, read, folder, control);
+    found = verification::verify(door, compared, folder, control);
   }
   if (found.interrupted) {
     tell(fmt::format(

@@ -136,6 +136,150 @@ const char* name_of(Ending ending) {
 Door::Door(const TierList& tiers, SceneSource source, DoorOptions options)
     : tiers_(tiers), source_(std::move(source)), options_(std::move(options)) {}
 
+/// A case that a tier of this program computes.
+class Door::InProcess final : public Prepared {
+ public:
+  InProcess(Scene scene, const Tier& tier, Keep keep)
+      : scene_(std::move(scene)), tier_(tier), keep_(std::move(keep)) {
+    const auto began = Clock::now();
+    if (keep_.folder.empty())
+      run_ = tier_.prepare(scene_);
+    else
+      stored_.emplace(tier_, scene_, keep_.folder, keep_.earlier);
+    setup_seconds_ = seconds_since(began);
+  }
+
+  const Scene& scene() const override { return scene_; }
+  const Tier& tier() const override { return tier_; }
+  bool is_complete() const override { return stored_ && stored_->is_complete(); }
+  std::vector<std::string> warnings() const override {
+    return stored_ ? stored_->warnings() : run_->warnings();
+  }
+
+  Outcome execute(const RunControl& control,
+                  const std::function<void(const std::string&)>& not_saved) override {
+    const auto began = Clock::now();
+    Outcome outcome;
+    outcome.tier = tier_.name();
+    if (!stored_) {
+      outcome.stored.emplace();
+      outcome.stored->result = run_->execute(control);
+      outcome.stored->record = make_record(scene_, outcome.stored->result.record);
+      take_ending(outcome.stored->result.record, outcome);
+    } else {
+      if (!is_complete()) {
+        const Result result = stored_->execute(control, not_saved);
+        std::error_code not_there;
+        for (const std::string& file : keep_.derived) fs::remove(keep_.folder / file, not_there);
+        stored_->store(result, [&] { keep_.beside(keep_.folder, result); });
+        take_ending(result.record, outcome);
+      }
+      outcome.stored = read_result(keep_.folder);
+    }
+    outcome.time = last_time(outcome.stored->result.observables);
+    outcome.cost.wall_seconds = setup_seconds_ + seconds_since(began);
+    return outcome;
+  }
+
+ private:
+  Scene scene_;
+  const Tier& tier_;
+  Keep keep_;
+  double setup_seconds_ = 0;
+  std::unique_ptr<TierRun> run_;     ///< where nothing is kept
+  std::optional<StoredRun> stored_;  ///< else
+};
+
+/// A case that a process of its own computes.
+class Door::ByProcess final : public Prepared {
+ public:
+  ByProcess(const Door& door, Scene scene, const Tier& tier, std::vector<std::string> overrides, Keep keep)
+      : door_(door),
+        scene_(std::move(scene)),
+        tier_(tier),
+        overrides_(std::move(overrides)),
+        keep_(std::move(keep)) {
+    if (keep_.folder.empty()) keep_.folder = passing_.emplace().path();
+  }
+
+  const Scene& scene() const override { return scene_; }
+  const Tier& tier() const override { return tier_; }
+  // The process finds out.
+  bool is_complete() const override { return false; }
+  std::vector<std::string> warnings() const override { return {}; }
+
+  Outcome execute(const RunControl& control, const std::function<void(const std::string&)>&) override {
+    const EndedProcess process = run_process(arguments(), control.interrupted);
+    Outcome outcome;
+    outcome.tier = tier_.name();
+    outcome.cost = {process.wall_seconds, process.cpu_seconds, process.mebibytes};
+    try {
+      outcome.stored = read_result(keep_.folder);
+      outcome.time = last_time(outcome.stored->result.observables);
+    } catch (const InvalidInput& error) {
+      // One that was refused leaves none.
+      if (process.exit_code == 0)
+        throw OutputFailure(fmt::format("{}: the result of {} is not whole: {}", keep_.folder.string(),
+                                        scene_.name(), error.what()));
+    }
+    take_ending(process, outcome.stored, outcome);
+    if (!passing_ && outcome.stored) keep_.beside(keep_.folder, outcome.stored->result);
+    return outcome;
+  }
+
+ private:
+  std::vector<std::string> arguments() const {
+    std::vector<std::string> all;
+    if (door_.options_.ranks > 1 && !tier_.computes())
+      all = {"mpirun", "-n", std::to_string(door_.options_.ranks)};
+    for (const std::string& argument :
+         {door_.options_.program.string(), std::string("run"), door_.source_.file().string(),
+          std::string("--tier"), std::string(tier_.name()), std::string("--out"), keep_.folder.string(),
+          std::string("--quiet"), std::string("--no-report")})
+      all.push_back(argument);
+    if (keep_.earlier == Earlier::resume) all.emplace_back("--resume");
+    if (keep_.earlier == Earlier::replace) all.emplace_back("--replace");
+    for (const auto* overrides : {&door_.source_.overrides(), &overrides_})
+      for (const std::string& override : *overrides) {
+        all.emplace_back("--set");
+        all.push_back(override);
+      }
+    return all;
+  }
+
+  const Door& door_;
+  Scene scene_;
+  const Tier& tier_;
+  std::vector<std::string> overrides_;
+  Keep keep_;
+  std::optional<TemporaryFolder> passing_;  ///< where nothing is kept
+};
+
+std::unique_ptr<Prepared> Door::prepare(Scene scene, const Tier& tier,
+                                        const std::vector<std::string>& overrides, Keep keep) const {
+  if (keep.folder.empty() && !options_.cache.empty()) keep.folder = cached(scene, tier);
+  if (needs_process(tier))
+    return std::make_unique<ByProcess>(*this, std::move(scene), tier, overrides, std::move(keep));
+  return std::make_unique<InProcess>(std::move(scene), tier, std::move(keep));
+}
+
+std::unique_ptr<Prepared> Door::prepare(const Case& what, const Keep& keep) const {
+  Scene scene = source_.with(what.overrides);
+  const Tier& tier = choose_tier(tiers_, what.tier, scene);
+  return prepare(std::move(scene), tier, what.overrides, keep);
+}
+
+std::unique_ptr<Prepared> Door::prepare(const Tier& tier, const std::vector<std::string>& overrides,
+                                        const Keep& keep) const {
+  return prepare(source_.with(overrides), tier, overrides, keep);
+}
+
+Outcome Door::compute(const Case& what, const Keep& keep, const RunControl& control) const {
+  Outcome outcome;
+  guarded(outcome, [&] { outcome = prepare(what, keep)->execute(control); });
+  return outcome;
+}
+
 Outcome Door::ask(const Case& what, const Question& question, const RunControl& control) const {
   const auto began = Clock::now();
   Outcome outcome;
@@ -148,99 +292,23 @@ Outcome Door::ask(const Case& what, const Question& question, const RunControl& 
     const Tier& tier = choose_tier(tiers_, what.tier, scene);
     outcome.tier = tier.name();
     if (needs_process(tier)) {
-      const TemporaryFolder folder;
-      outcome = by_process(asked, scene, tier, {folder.path()}, control);
+      outcome = prepare(scene, tier, asked.overrides, {})->execute(control);
       if (outcome.ending == Ending::done) outcome.answer = answer_of(*outcome.stored, question);
       outcome.stored.reset();
-      return;
-    }
-    if (auto answer = tier.answer(scene, question, control)) {
+    } else if (auto answer = tier.answer(scene, question, control)) {
       outcome.answer = std::move(*answer);
       outcome.time = scene.text("time.mode") == "static"
                          ? 0
                          : static_cast<double>(scene.integer("time.beats")) * scene.number("inlet.period");
-      return;
-    }
-    const Result result = tier.prepare(scene)->execute(control);
-    outcome.time = last_time(result.observables);
-    take_ending(result.record, outcome);
-    if (outcome.ending == Ending::done)
-      outcome.answer = answer_of(result, observables::last_beat(scene, result.observables), question);
-  });
-  if (observables::is_none(outcome.cost.cpu_seconds)) outcome.cost.wall_seconds = seconds_since(began);
-  return outcome;
-}
-
-Outcome Door::compute(const Case& what, const Keep& keep, const Watch& watch) const {
-  const auto began = Clock::now();
-  Outcome outcome;
-  guarded(outcome, [&] {
-    const Scene scene = source_.with(what.overrides);
-    const Tier& tier = choose_tier(tiers_, what.tier, scene);
-    outcome.tier = tier.name();
-    Keep kept = keep;
-    if (kept.folder.empty() && !options_.cache.empty()) kept.folder = cached(scene, tier);
-    if (needs_process(tier)) {
-      std::optional<TemporaryFolder> passing;
-      if (kept.folder.empty()) kept.folder = passing.emplace().path();
-      watch.begin(scene, {});
-      outcome = by_process(what, scene, tier, kept, watch);
-      if (!passing) kept.beside(kept.folder);
-      return;
-    }
-    if (kept.folder.empty()) {
-      const auto run = tier.prepare(scene);
-      watch.begin(scene, run->warnings());
-      outcome.stored.emplace();
-      outcome.stored->result = run->execute(watch);
-      outcome.stored->record = make_record(scene, outcome.stored->result.record);
-      take_ending(outcome.stored->result.record, outcome);
     } else {
-      StoredRun run(tier, scene, kept.folder, kept.earlier);
-      if (!run.is_complete()) {
-        watch.begin(scene, run.warnings());
-        const Result result = run.execute(watch, watch.not_saved);
-        run.store(result, [&] { kept.beside(kept.folder); });
-        take_ending(result.record, outcome);
-      }
-      outcome.stored = read_result(kept.folder);
+      const Result result = tier.prepare(scene)->execute(control);
+      outcome.time = last_time(result.observables);
+      take_ending(result.record, outcome);
+      if (outcome.ending == Ending::done)
+        outcome.answer = answer_of(result, observables::last_beat(scene, result.observables), question);
     }
-    outcome.time = last_time(outcome.stored->result.observables);
   });
   if (observables::is_none(outcome.cost.cpu_seconds)) outcome.cost.wall_seconds = seconds_since(began);
-  return outcome;
-}
-
-Outcome Door::by_process(const Case& what, const Scene& scene, const Tier& tier, const Keep& keep,
-                         const RunControl& control) const {
-  std::vector<std::string> arguments;
-  if (options_.ranks > 1 && !tier.computes()) arguments = {"mpirun", "-n", std::to_string(options_.ranks)};
-  for (const std::string& argument :
-       {options_.program.string(), std::string("run"), source_.file().string(), std::string("--tier"),
-        std::string(tier.name()), std::string("--out"), keep.folder.string(), std::string("--quiet"),
-        std::string("--no-report")})
-    arguments.push_back(argument);
-  if (keep.earlier == Earlier::resume) arguments.emplace_back("--resume");
-  if (keep.earlier == Earlier::replace) arguments.emplace_back("--replace");
-  for (const auto* overrides : {&source_.overrides(), &what.overrides})
-    for (const std::string& override : *overrides) {
-      arguments.emplace_back("--set");
-      arguments.push_back(override);
-    }
-  const EndedProcess process = run_process(arguments, control.interrupted);
-  Outcome outcome;
-  outcome.tier = tier.name();
-  outcome.cost = {process.wall_seconds, process.cpu_seconds, process.mebibytes};
-  try {
-    outcome.stored = read_result(keep.folder);
-    outcome.time = last_time(outcome.stored->result.observables);
-  } catch (const InvalidInput& error) {
-    // One that was refused leaves none.
-    if (process.exit_code == 0)
-      throw OutputFailure(fmt::format("{}: the result of {} is not whole: {}", keep.folder.string(),
-                                      scene.name(), error.what()));
-  }
-  take_ending(process, outcome.stored, outcome);
   return outcome;
 }
 

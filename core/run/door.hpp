@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -50,18 +51,11 @@ struct Outcome {
 struct Keep {
   std::filesystem::path folder;  ///< empty: nowhere, or in the door's cache
   Earlier earlier = Earlier::resume;
+  /// Names of files there that are made from the result: those of an earlier one do not stand beside it.
+  std::vector<std::string> derived = {};
   /// Adds to the folder when the result is there, before others may use it.
-  std::function<void(const std::filesystem::path&)> beside = [](const std::filesystem::path&) {};
-};
-
-/// What a caller of compute() is told besides progress.
-struct Watch : RunControl {
-  /// Before anything is computed: what a user should know, one line each. Not called where a whole result was
-  /// there already.
-  std::function<void(const Scene&, const std::vector<std::string>& warnings)> begin =
-      [](const Scene&, const std::vector<std::string>&) {};
-  /// That a checkpoint could not be written; the run goes on.
-  std::function<void(const std::string&)> not_saved = [](const std::string&) {};
+  std::function<void(const std::filesystem::path&, const Result&)> beside = [](const std::filesystem::path&,
+                                                                               const Result&) {};
 };
 
 struct DoorOptions {
@@ -75,29 +69,57 @@ struct DoorOptions {
   std::filesystem::path cache = {};
 };
 
+/// A case that has been set up, to be computed once.
+class Prepared {
+ public:
+  virtual ~Prepared() = default;
+  virtual const Scene& scene() const = 0;
+  virtual const Tier& tier() const = 0;
+  /// True when its folder holds the whole result already: execute() reads it.
+  virtual bool is_complete() const = 0;
+  /// What a user should know before the run, one line each.
+  virtual std::vector<std::string> warnings() const = 0;
+  /// The whole result. `not_saved` is told of checkpoints that could not be written; the run goes on. Throws
+  /// OutputFailure where the result cannot be kept, and InvalidInput when another run has begun in the folder
+  /// since this one was set up.
+  virtual Outcome execute(
+      const RunControl& control,
+      const std::function<void(const std::string&)>& not_saved = [](const std::string&) {}) = 0;
+};
+
 /// The one door through which cases are computed: in process by the tiers of this program, by a process of
-/// their own where a tier is here by name only. A case that cannot be computed, or that gives up, is an
-/// outcome with its reason and no exception. Any number of threads may ask at once.
+/// their own where a tier is here by name only. Any number of threads may ask at once.
 class Door {
  public:
   /// The tiers must outlive it.
   Door(const TierList& tiers, SceneSource source, DoorOptions options = {});
 
-  /// Quantities and gradients, by the tier's own short way where it has one. Throws OutputFailure where a
-  /// process that is needed has no room for its result.
+  /// Quantities and gradients, by the tier's own short way where it has one. A case that cannot be computed,
+  /// or that gives up, is an outcome with its reason and no exception. Throws OutputFailure where a process
+  /// that is needed has no room for its result.
   Outcome ask(const Case& what, const Question& question, const RunControl& control = {}) const;
 
-  /// The whole result. Throws OutputFailure where it cannot be kept.
-  Outcome compute(const Case& what, const Keep& keep = {}, const Watch& watch = {}) const;
+  /// The whole result, likewise. Throws OutputFailure where it cannot be kept.
+  Outcome compute(const Case& what, const Keep& keep = {}, const RunControl& control = {}) const;
+
+  /// compute() in two steps, for a caller who has something to say between them. Throws InvalidInput for a
+  /// case that cannot be computed, before anything is written. The door must outlive what it returns.
+  std::unique_ptr<Prepared> prepare(const Case& what, const Keep& keep) const;
+  /// The same for a tier that the caller has.
+  std::unique_ptr<Prepared> prepare(const Tier& tier, const std::vector<std::string>& overrides,
+                                    const Keep& keep) const;
 
   const SceneSource& source() const { return source_; }
   const TierList& tiers() const { return tiers_; }
   const DoorOptions& options() const { return options_; }
 
  private:
+  class InProcess;
+  class ByProcess;
+
   bool needs_process(const Tier& tier) const { return options_.processes || !tier.computes(); }
-  Outcome by_process(const Case& what, const Scene& scene, const Tier& tier, const Keep& keep,
-                     const RunControl& control) const;
+  std::unique_ptr<Prepared> prepare(Scene scene, const Tier& tier, const std::vector<std::string>& overrides,
+                                    Keep keep) const;
   std::filesystem::path cached(const Scene& scene, const Tier& tier) const;
 
   const TierList& tiers_;

@@ -23,8 +23,8 @@ enum class Statistic {
   on,         ///< of recruitment: s in the beat at which fibres are first recruited; none where they are not
   off,        ///< of recruitment: s in the beat at which that first interval ends
   max_place,  ///< of von_mises: where its greatest maximum is, 1 to wall_points for P1..P4
-  /// Of beat: 1 where pressure, outflow and radial_displacement.P1 end it within 1 % of their largest magnitude
-  /// of where they began it (observables::unrepeated), else 0.
+  /// Of beat: 1 where pressure, outflow and radial_displacement.P1 end it within 1 % of their largest
+  /// magnitude of where they began it (observables::unrepeated), else 0.
   periodic
 };
 

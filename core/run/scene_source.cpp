@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/run/scene_source.hpp"
 
+#include "core/scene/given.hpp"
+#include "core/scene/message.hpp"
+#include "core/scene/reader.hpp"
 #include "core/scene/text.hpp"
 
 namespace tunica::run {
@@ -15,7 +18,8 @@ Scene SceneSource::with(const std::vector<std::string>& overrides) const {
   std::vector<std::string> all = overrides_;
   all.insert(all.end(), overrides.begin(), overrides.end());
   const std::filesystem::path folder = file_.has_parent_path() ? file_.parent_path() : ".";
-  return parse_scene(text_, file_.filename().string(), folder, all);
+  const std::string label = scene::one_line(file_.string(), 400);
+  return SceneReader(scene::read_given(text_, label, all), file_.stem().string(), folder).read();
 }
 
 }  // namespace tunica::run

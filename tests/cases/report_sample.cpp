@@ -6,6 +6,7 @@
 #include "app/report/report.hpp"
 #include "tests/support/bent_tube.hpp"
 #include "tests/support/fake_tier.hpp"
+#include "tests/support/made_scene.hpp"
 #include "tests/support/synthetic.hpp"
 #include "verification/cross_tier.hpp"
 
@@ -84,10 +85,7 @@ verification::CrossTier verified(const std::filesystem::path& folder) {
   const test_support::FakeTier high{"high", [](const Scene& scene, const RunControl&) {
                                       return larger_by(scene.number("wall.density") == 2 ? 0.021 : 0.05);
                                     }};
-  const auto scene = [](const std::vector<std::string>& overrides) {
-    return parse_scene("[geometry]\n", "made", ".", overrides);
-  };
-  return verification::verify({&low, &high}, scene, folder, {},
+  return verification::verify(test_support::door_of_made_scene(), {&low, &high}, folder, {},
                               {{"low",
                                 "high",
                                 {{"inertance", {"lumped.inertance=true"}, "inertia"}},

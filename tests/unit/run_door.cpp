@@ -93,7 +93,7 @@ TEST_F(RunDoor, KeepsWhatItComputesAndTakesItFromThere) {
   run::Keep keep;
   keep.folder = folder_.path() / "out";
   int beside = 0;
-  keep.beside = [&](const auto& folder) { beside += folder == keep.folder; };
+  keep.beside = [&](const auto& folder, const Result&) { beside += folder == keep.folder; };
   for (int time = 0; time < 2; ++time) {
     const auto outcome = door().compute({}, keep);
     ASSERT_EQ(outcome.ending, Ending::done) << outcome.reason;
@@ -150,9 +150,11 @@ TEST(RunProcess, TellsHowItEnded) {
 }
 
 TEST(RunProcess, IsAskedToStopOnce) {
-  const auto ended = run::run_process(
-      {"sh", "-c", "n=0; trap 'n=$((n+1)); [ $n = 1 ] && sleep 0.2; exit $n' INT; sleep 20 & wait"},
-      [] { return true; });
+  const TemporaryFolder folder;
+  const auto ready = folder.path() / "ready";
+  const std::string script = "n=0; trap 'n=$((n+1)); [ $n = 1 ] && sleep 0.2; exit $n' INT; touch " +
+                             ready.string() + "; sleep 20 & wait";
+  const auto ended = run::run_process({"sh", "-c", script}, [&] { return std::filesystem::exists(ready); });
   EXPECT_EQ(ended.exit_code, 1);
   EXPECT_LT(ended.wall_seconds, 10);
 }

@@ -10,12 +10,14 @@
 #include "core/observables/record.hpp"
 #include "lumped/lumped_tier.hpp"
 #include "tests/support/fake_tier.hpp"
+#include "tests/support/made_scene.hpp"
 #include "tests/support/synthetic.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "verification/cross_tier.hpp"
 
 using namespace tunica;
 using namespace tunica::verification;
+using test_support::door_of_made_scene;
 using test_support::FakeTier;
 using test_support::synthetic_run;
 using test_support::TemporaryFolder;
@@ -64,14 +66,6 @@ std::vector<Ladder> ladder(std::vector<Rung> added = {chain(), inertance},
   return {{"low", "high", std::move(added), std::move(removed)}};
 }
 
-SceneSource scene_with(std::vector<std::string> overrides = {}) {
-  return [overrides](const std::vector<std::string>& more) {
-    std::vector<std::string> all = overrides;
-    all.insert(all.end(), more.begin(), more.end());
-    return parse_scene("[geometry]\n", "made", ".", all);
-  };
-}
-
 const QuantityRow& row(const TierComparison& comparison, const std::string& label) {
   for (const QuantityRow& one : comparison.rows)
     if (one.quantity.label == label) return one;
@@ -79,10 +73,10 @@ const QuantityRow& row(const TierComparison& comparison, const std::string& labe
 }
 
 CrossTier verify_made(const Made& made, const std::vector<Ladder>& between = ladder(),
-                      const SceneSource& scene = scene_with()) {
+                      const run::Door& door = door_of_made_scene()) {
   const TemporaryFolder folder;
   const FakeTier low = made.low(), high = made.high();
-  return verify({&low, &high}, scene, folder.path(), {}, between);
+  return verify(door, {&low, &high}, folder.path(), {}, between);
 }
 
 /// The range is that of rows, which miss the peak by 0.2 ms: (pi/T 0.2 ms)^2 of it.
@@ -145,12 +139,13 @@ TEST(CrossTier, EffectsThatCancelAreTold) {
 }
 
 TEST(CrossTier, TheLimitFollowsTheScenesTolerance) {
+  EXPECT_EQ(row(verify_made({}, ladder(), door_of_made_scene({"accuracy.tolerance=0.1"})).comparisons.front(),
+                "pressure")
+                .verdict,
+            Agreement::agrees);
   EXPECT_EQ(
-      row(verify_made({}, ladder(), scene_with({"accuracy.tolerance=0.1"})).comparisons.front(), "pressure")
-          .verdict,
-      Agreement::agrees);
-  EXPECT_EQ(
-      row(verify_made({}, ladder(), scene_with({"accuracy.tolerance=0.001"})).comparisons.front(), "pressure")
+      row(verify_made({}, ladder(), door_of_made_scene({"accuracy.tolerance=0.001"})).comparisons.front(),
+          "pressure")
           .verdict,
       Agreement::disagrees);
 }
@@ -158,8 +153,8 @@ TEST(CrossTier, TheLimitFollowsTheScenesTolerance) {
 TEST(CrossTier, ARungThatASceneCannotTakeIsLeftOutAndTold) {
   const Rung no_key{"odd", {"lumped.no_such_key=1"}, "nothing"};
   const Rung no_change{"same", {"lumped.inertance=false"}, "nothing"};
-  const CrossTier found =
-      verify_made({}, ladder({no_key, no_change, chain(), inertance}), scene_with({"lumped.compartments=7"}));
+  const CrossTier found = verify_made({}, ladder({no_key, no_change, chain(), inertance}),
+                                      door_of_made_scene({"lumped.compartments=7"}));
   const TierComparison& comparison = found.comparisons.front();
   ASSERT_EQ(comparison.left_out.size(), 3U);
   EXPECT_NE(comparison.left_out[0].find("lumped.no_such_key"), std::string::npos) << comparison.left_out[0];
@@ -184,7 +179,7 @@ TEST(CrossTier, ARungThatGivesUpOrIsRefusedIsLeftOut) {
                      }};
   const FakeTier high = made.high();
   const TemporaryFolder folder;
-  const CrossTier found = verify({&low, &high}, scene_with(), folder.path(), {}, ladder());
+  const CrossTier found = verify(door_of_made_scene(), {&low, &high}, folder.path(), {}, ladder());
   const TierComparison& comparison = found.comparisons.front();
   ASSERT_EQ(comparison.left_out.size(), 2U);
   EXPECT_NE(comparison.left_out[0].find("gave up for the test"), std::string::npos);
@@ -209,7 +204,7 @@ TEST(CrossTier, ARungThatIsRefusedExplainsNothing) {
                      }};
   const FakeTier high = made.high();
   const TemporaryFolder folder;
-  const CrossTier found = verify({&low, &high}, scene_with(), folder.path(), {}, ladder());
+  const CrossTier found = verify(door_of_made_scene(), {&low, &high}, folder.path(), {}, ladder());
   EXPECT_EQ(found.comparisons.front().verdict(), Agreement::disagrees);
 }
 
@@ -223,12 +218,12 @@ TEST(CrossTier, ATierThatGivesUpIsNamedAndTheOthersAreCompared) {
                           return result;
                         }};
   const TemporaryFolder folder;
-  const CrossTier found = verify({&low, &broken, &high}, scene_with(), folder.path(), {}, ladder());
+  const CrossTier found = verify(door_of_made_scene(), {&low, &broken, &high}, folder.path(), {}, ladder());
   EXPECT_EQ(found.failure(), "broken: the solver gave up at t = 0 s: for the test");
   ASSERT_EQ(found.comparisons.size(), 1U);
   EXPECT_EQ(found.runs[found.comparisons[0].run].tier, "low");
   EXPECT_EQ(found.tier_results().size(), 2U);
-  EXPECT_TRUE(verify({&low, &broken}, scene_with(), folder.path(), {}, ladder()).comparisons.empty());
+  EXPECT_TRUE(verify(door_of_made_scene(), {&low, &broken}, folder.path(), {}, ladder()).comparisons.empty());
 }
 
 TEST(CrossTier, AnInterruptEndsItAll) {
@@ -243,7 +238,7 @@ TEST(CrossTier, AnInterruptEndsItAll) {
   VerifyControl control;
   control.begin = [&](const std::string&) { ++begun; };
   control.interrupted = [] { return true; };
-  const CrossTier found = verify({&low, &high}, scene_with(), folder.path(), control, ladder());
+  const CrossTier found = verify(door_of_made_scene(), {&low, &high}, folder.path(), control, ladder());
   EXPECT_TRUE(found.interrupted);
   EXPECT_EQ(begun, 1);
   EXPECT_TRUE(found.comparisons.empty());
@@ -262,7 +257,7 @@ TEST(CrossTier, WarningsAndFindingsAreToldOnceEach) {
   VerifyControl control;
   std::vector<std::string> told;
   control.warn = [&](const std::string& line) { told.push_back(line); };
-  verify({&low, &high}, scene_with(), folder.path(), control, ladder());
+  verify(door_of_made_scene(), {&low, &high}, folder.path(), control, ladder());
   EXPECT_EQ(told, (std::vector<std::string>{"it ripples", "a key is not used", "steps were divided"}));
 }
 
@@ -271,13 +266,13 @@ TEST(CrossTier, ATierThatRefusesTheSceneIsToldBeforeAnythingIsComputed) {
   const FakeTier high{"high", [](const Scene&, const RunControl&) { return higher_by(0); },
                       [](const Scene&) { return std::string("not this one"); }};
   const TemporaryFolder folder;
-  EXPECT_THROW(verify({&low, &high}, scene_with(), folder.path(), {}, ladder()), InvalidInput);
+  EXPECT_THROW(verify(door_of_made_scene(), {&low, &high}, folder.path(), {}, ladder()), InvalidInput);
   EXPECT_EQ(test_support::count_entries(folder.path()), 0U);
 }
 
 TEST(CrossTier, TextIsNarrowAndJsonComplete) {
   for (const char* law : {"EXP1", "EXP1+EXP2-FS"}) {
-    const CrossTier found = verify_made({}, ladder(), scene_with({std::string("wall.law=") + law}));
+    const CrossTier found = verify_made({}, ladder(), door_of_made_scene({std::string("wall.law=") + law}));
     // The verdict stands first, before rows that push it out of sight.
     const std::string verdict = found.scene + ": low against high differs by the model (explained): ";
     EXPECT_EQ(to_text(found).find(verdict.substr(0, verdict.size() - 2)), 0U) << to_text(found);
@@ -307,7 +302,7 @@ TEST(CrossTier, TheLumpedTierWithItsOptionsIsExplainedWithoutRemainder) {
                                 return plain.prepare(full)->execute(control);
                               }};
   const TemporaryFolder folder;
-  const CrossTier found = verify({&plain, &with_options}, scene_with(), folder.path());
+  const CrossTier found = verify(door_of_made_scene(), {&plain, &with_options}, folder.path());
   EXPECT_EQ(found.failure(), "");
   const TierComparison& comparison = found.comparisons.front();
   // Rungs of the axisymmetric tier: this one heeds neither.
