@@ -88,14 +88,14 @@ struct VerifyControl {
   bool replace = false;  ///< also runs of other scenes that were stopped and could be resumed
 };
 
-/// Computes the door's scene with every tier (the reference last) and with the rungs of the ladders between them,
-/// each into a folder below `folder`, and compares what they found over the last whole beat, at the same
-/// places and times. Verdicts: a quantity agrees when the largest difference is within its limit (see
-/// yardstick). Beyond, it differs by the model when it is within the limit where the two models mean the same
-/// artery: then the difference comes from the effects that the links measure. Otherwise it disagrees or,
-/// where a rung gave up, is not explained. Throws InvalidInput when a tier cannot compute the scene, before
-/// anything is computed. A rung that cannot be taken is left out and named. A tier that gives up is named in
-/// failure(); what can be compared still is.
+/// Computes the door's scene with every tier (the reference last) and with the rungs of the ladders
+/// between them, each into a folder below `folder`, and compares what they found over the last whole
+/// beat, at the same places and times. Verdicts: a quantity agrees when the largest difference is within
+/// its limit (see yardstick). Beyond, it differs by the model when it is within the limit where the two
+/// models mean the same artery: then the difference comes from the effects that the links measure.
+/// Otherwise it disagrees or, where a rung gave up, is not explained. Throws InvalidInput when a tier
+/// cannot compute the scene, before anything is computed. A rung that cannot be taken is left out and
+/// named. A tier that gives up is named in failure(); what can be compared still is.
 CrossTier verify(const run::Door& door, const std::vector<const Tier*>& tiers,
                  const std::filesystem::path& folder, const VerifyControl& control = {},
                  const std::vector<Ladder>& between = ladders());

@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
+#include <fstream>
 #include <new>
 #include <system_error>
 #include <utility>
@@ -55,6 +56,25 @@ class TemporaryFolder {
 double last_time(const observables::Table& table) {
   const auto* time = table.find("time");
   return time && !time->values.empty() ? time->values.back() : observables::none;
+}
+
+/// What a process took is kept beside its result in the cache, as it cannot be measured again without work.
+constexpr const char* cost_file = "cost.json";
+
+void keep_cost(const fs::path& folder, const Cost& cost) {
+  const nlohmann::ordered_json kept{
+      {"wall_seconds", cost.wall_seconds}, {"cpu_seconds", cost.cpu_seconds}, {"mebibytes", cost.mebibytes}};
+  write_whole(folder / cost_file, kept.dump() + "\n");
+}
+
+std::optional<Cost> kept_cost(const fs::path& folder) {
+  std::ifstream stream(folder / cost_file);
+  const auto kept = nlohmann::ordered_json::parse(stream, nullptr, false);
+  try {
+    return Cost{kept.at("wall_seconds"), kept.at("cpu_seconds"), kept.at("mebibytes")};
+  } catch (const nlohmann::json::exception&) {
+    return {};
+  }
 }
 
 /// How a result that was computed here has ended.
@@ -193,25 +213,34 @@ class Door::InProcess final : public Prepared {
 /// A case that a process of its own computes.
 class Door::ByProcess final : public Prepared {
  public:
-  ByProcess(const Door& door, Scene scene, const Tier& tier, std::vector<std::string> overrides, Keep keep)
+  ByProcess(const Door& door, Scene scene, const Tier& tier, std::vector<std::string> overrides, Keep keep,
+            bool is_cached)
       : door_(door),
         scene_(std::move(scene)),
         tier_(tier),
         overrides_(std::move(overrides)),
-        keep_(std::move(keep)) {
+        keep_(std::move(keep)),
+        is_cached_(is_cached) {
     if (keep_.folder.empty()) keep_.folder = passing_.emplace().path();
+    if (is_cached_) cost_ = kept_cost(keep_.folder);
   }
 
   const Scene& scene() const override { return scene_; }
   const Tier& tier() const override { return tier_; }
-  // The process finds out.
-  bool is_complete() const override { return false; }
+  // Elsewhere than in the cache the process finds out.
+  bool is_complete() const override { return cost_.has_value(); }
   std::vector<std::string> warnings() const override { return {}; }
 
   Outcome execute(const RunControl& control, const std::function<void(const std::string&)>&) override {
-    const EndedProcess process = run_process(arguments(), control.interrupted);
     Outcome outcome;
     outcome.tier = tier_.name();
+    if (cost_) {
+      outcome.stored = read_result(keep_.folder);
+      outcome.time = last_time(outcome.stored->result.observables);
+      outcome.cost = *cost_;
+      return outcome;
+    }
+    const EndedProcess process = run_process(arguments(), control.interrupted);
     outcome.cost = {process.wall_seconds, process.cpu_seconds, process.mebibytes};
     try {
       outcome.stored = read_result(keep_.folder);
@@ -223,6 +252,7 @@ class Door::ByProcess final : public Prepared {
                                         scene_.name(), error.what()));
     }
     take_ending(process, outcome.stored, outcome);
+    if (is_cached_ && outcome.ending == Ending::done) keep_cost(keep_.folder, outcome.cost);
     if (!passing_ && outcome.stored) keep_.beside(keep_.folder, outcome.stored->result);
     return outcome;
   }
@@ -252,14 +282,17 @@ class Door::ByProcess final : public Prepared {
   const Tier& tier_;
   std::vector<std::string> overrides_;
   Keep keep_;
+  bool is_cached_;
+  std::optional<Cost> cost_;                ///< of a whole result in the cache
   std::optional<TemporaryFolder> passing_;  ///< where nothing is kept
 };
 
 std::unique_ptr<Prepared> Door::prepare(Scene scene, const Tier& tier,
                                         const std::vector<std::string>& overrides, Keep keep) const {
-  if (keep.folder.empty() && !options_.cache.empty()) keep.folder = cached(scene, tier);
+  const bool is_cached = keep.folder.empty() && !options_.cache.empty();
+  if (is_cached) keep.folder = cached(scene, tier);
   if (needs_process(tier))
-    return std::make_unique<ByProcess>(*this, std::move(scene), tier, overrides, std::move(keep));
+    return std::make_unique<ByProcess>(*this, std::move(scene), tier, overrides, std::move(keep), is_cached);
   return std::make_unique<InProcess>(std::move(scene), tier, std::move(keep));
 }
 

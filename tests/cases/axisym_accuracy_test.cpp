@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What accuracy.tolerance promises of the 2D tier: errors of all observables, relative to their ranges, over
-// two beats of the paper's cylinder from rest. tools/accuracy measures the same against much finer runs.
+// What accuracy.tolerance promises of the 2D tier: errors of all observables, relative to their ranges,
+// over two beats of the paper's cylinder from rest. tools/study accuracy measures the same against much
+// finer runs.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -63,7 +64,7 @@ INSTANTIATE_TEST_SUITE_P(, Tolerance, testing::Values("EXP1", "EXP2", "EXP1+EXP2
 class FineTolerance : public testing::TestWithParam<std::string> {};
 
 // The reference's own error, a third of the tolerance, is left room for. Where a front of recruitment passes
-// (FS), the stress has a kink within a cell, and is right to 0.2 % only (tools/accuracy).
+// (FS), the stress has a kink within a cell, and is right to 0.2 % only (tools/study accuracy).
 TEST_P(FineTolerance, IsKept) {
   for (const auto& [column, error] : errors(computed(GetParam(), "0.001"), computed(GetParam(), "0.0003"))) {
     const bool jagged = GetParam() == "EXP1+EXP2-FS" && column.starts_with("von_mises");

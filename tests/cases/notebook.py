@@ -40,7 +40,7 @@ def main():
         if text.count("mmHg") != 8 or text.count("% of the beat") != 8:
             sys.exit(f"not every law and point has its line:\n{text}")
         code, printed, _ = execute(program, notebook, os.path.join(folder, "nothing"), folder)
-        if code == 0 or "Make them with: tools/reproduce" not in printed:
+        if code == 0 or "Make them with: tools/study reproduction" not in printed:
             sys.exit(f"without results the notebook does not say which command makes them:\n{printed}")
 
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "verification/elastic_tube_runs.hpp"
+#include "verification/studies/elastic_tube_runs.hpp"
 
 namespace tunica::verification {
 namespace {

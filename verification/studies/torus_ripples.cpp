@@ -1,25 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// tunica_torus_ripples PAGE SCENE PICTURE CSV: the first beat of the torus with the printed tether in space,
-// on meshes of the paper's elements and others. Writes the table of docs/verification/tether-stability.md
-// between its marks, ripples along the outside of the bend over time and at the end as an SVG and as CSV.
+// The first beat of the torus with the printed tether in space, on meshes of the paper's elements and
+// others: a table of docs/verification/tether-stability.md, ripples along the outside of the bend over
+// time and at the end as an SVG and as CSV.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
-#include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/observables/build_info.hpp"
 #include "core/observables/result.hpp"
 #include "core/units.hpp"
-#include "full3d/full3d_tier.hpp"
-#include "full3d/petsc.hpp"
 #include "verification/line_chart.hpp"
 #include "verification/page.hpp"
-#include "verification/ripple_lines.hpp"
+#include "verification/studies/ripple_lines.hpp"
+#include "verification/studies/study.hpp"
 
 using namespace tunica;
 using namespace tunica::verification;
@@ -28,64 +26,38 @@ namespace {
 
 constexpr double thickness = 0.01;  // cm
 
-struct Case {
-  std::string name;
-  double bend;  ///< degrees, of the torus of 0.66 cm for 180
-  double end;   ///< s
-  std::vector<std::string> overrides;
-
-  double length() const { return 0.66 * bend / 180; }
-};
-
-std::vector<std::string> cells(int wall, int blood, int axial, int around) {
-  return {fmt::format("mesh.wall_cells={}", wall), fmt::format("mesh.blood_cells={}", blood),
-          fmt::format("mesh.axial_cells={}", axial), fmt::format("mesh.around_cells={}", around),
-          "time.step=1e-3"};
-}
-
-std::vector<Case> cases() {
-  const auto bubble = [](std::vector<std::string> overrides) {
-    overrides.emplace_back("mesh.element=bubble");
-    return overrides;
-  };
-  return {{"quadratic", 60, 0.12, cells(3, 2, 14, 8)},
-          {"quadratic", 60, 0.12, cells(3, 2, 28, 8)},
-          {"bubble, the paper's density", 60, 0.12, bubble(cells(4, 3, 56, 32))}};
-}
-
 struct Outcome {
-  Case of;
+  StudyCase of;
+  double bend, end, length;  ///< degrees, s, cm
   Result result;
   std::vector<LumenLine> lines;
   std::string ended;
 };
 
-Outcome outcome_of(const std::filesystem::path& file, const Case& of) {
+Outcome outcome_of(const Study& study, const StudyCase& of) {
+  const double bend = of.number("bend"), end = of.number("end");
   std::vector<double> times;
-  for (double t = 0.02; t < of.end - 1e-9; t += 0.002) times.push_back(t);
-  std::vector<std::string> overrides = of.overrides;
-  overrides.insert(overrides.end(),
-                   {"tether.traction=reference", fmt::format("geometry.bend_angle={}", of.bend),
-                    fmt::format("geometry.length={}", of.length()), "time.beats=1", "output.field_interval=0",
-                    fmt::format("output.profile_times=[{:.3f}]", fmt::join(times, ","))});
-  const Scene scene = read_scene(file, overrides);
+  for (double t = 0.02; t < end - 1e-9; t += 0.002) times.push_back(t);
+  StudyCase pictured = of;
+  pictured.overrides.push_back(fmt::format("output.profile_times=[{:.3f}]", fmt::join(times, ",")));
   // A run that has lost its smooth solution crawls: it is ended where it has shown that.
   constexpr long most_iterations = 450;
   Progress now;
   RunControl control;
   control.report = [&](const Progress& progress) { now = progress; };
-  control.interrupted = [&] { return now.time >= of.end || now.newton_iterations > most_iterations; };
-  const full3d::Ranks ranks;
-  full3d::Team team(ranks);
-  Outcome outcome{of, full3d::Full3dTier(team).prepare(scene)->execute(control), {}, {}};
-  outcome.ended = fmt::format("at {:g} s", of.end);
+  control.interrupted = [&] { return now.time >= end || now.newton_iterations > most_iterations; };
+  // Of the torus of 0.66 cm for 180 degrees.
+  Outcome outcome{
+      of, bend, end, 0.66 * bend / 180, std::move(study.computed(pictured, control).stored.value().result),
+      {}, {}};
+  outcome.ended = fmt::format("at {:g} s", end);
   outcome.lines = lumen_lines(outcome.result.along);
   if (!outcome.result.record.failure.empty())
     outcome.ended = fmt::format("gave up at {:.3f} s", now.time);
-  else if (now.time < of.end)
+  else if (now.time < end)
     outcome.ended =
         fmt::format("stopped after {} Newton iterations at {:.3f} s", now.newton_iterations, now.time);
-  fmt::print(stderr, "{}: {} steps, {} {}\n", of.name, outcome.result.record.steps, outcome.ended,
+  fmt::print(stderr, "{}: {} steps, {} {}\n", of.series, outcome.result.record.steps, outcome.ended,
              outcome.result.record.failure);
   return outcome;
 }
@@ -114,19 +86,19 @@ std::string table(const std::vector<Outcome>& outcomes) {
   std::vector<std::vector<std::string>> rows;
   for (const Outcome& o : outcomes) {
     std::vector<std::string> row{
-        o.of.name, fmt::format("{:g}", o.of.bend),
+        o.of.series, fmt::format("{:g}", o.bend),
         fmt::format("{} x {} x {}", o.result.record.resolution.at("wall_cells").get<int>(),
                     o.result.record.resolution.at("axial_cells").get<int>(),
                     o.result.record.resolution.at("around_cells").get<int>()),
         fmt::format("{:.1f}", middle_cell(o)), fmt::format("{}", o.result.record.unknowns)};
     const auto ripples_at = [&](const LumenLine& line) {
-      return ripples(line, o.of.length()).amplitude > visible * thickness;
+      return ripples(line, o.length).amplitude > visible * thickness;
     };
     const auto first = std::find_if(o.lines.begin(), o.lines.end(), ripples_at);
     row.push_back(first == o.lines.end()
                       ? "–"
                       : fmt::format("{:.3f} s, {:.0f} mmHg", first->time, pressure_at(o, first->time)));
-    const Ripples last = ripples(o.lines.back(), o.of.length());
+    const Ripples last = ripples(o.lines.back(), o.length);
     row.push_back(fmt::format("{:.2g} h", last.amplitude / thickness));
     row.push_back(last.amplitude > visible * thickness && last.wave_length > 0
                       ? fmt::format("{:.1f} h", last.wave_length / thickness)
@@ -141,8 +113,8 @@ std::string table(const std::vector<Outcome>& outcomes) {
 }
 
 std::string label(const Outcome& o) {
-  return fmt::format("{}, {} cells along {:g}°", o.of.name,
-                     o.result.record.resolution.at("axial_cells").get<int>(), o.of.bend);
+  return fmt::format("{}, {} cells along {:g}°", o.of.series,
+                     o.result.record.resolution.at("axial_cells").get<int>(), o.bend);
 }
 
 /// How ripples grow, and the lumen at the end.
@@ -154,7 +126,7 @@ std::string picture(const std::vector<Outcome>& outcomes) {
     growth.series.push_back({label(o), {}, {}});
     for (const LumenLine& line : o.lines) {
       growth.series.back().x.push_back(line.time);
-      growth.series.back().y.push_back(std::max(1e-6, ripples(line, o.of.length()).amplitude / thickness));
+      growth.series.back().y.push_back(std::max(1e-6, ripples(line, o.length).amplitude / thickness));
     }
     const LumenLine& last = o.lines.back();
     LineChart lumen{fmt::format("{}, {:.3f} s", label(o), last.time),
@@ -178,13 +150,13 @@ std::string csv(const std::vector<Outcome>& outcomes) {
   for (const char* size : {"amplitude", "wave_length"}) all.add(size, "cm");
   for (const Outcome& o : outcomes)
     for (const LumenLine& line : o.lines) {
-      const Ripples found = ripples(line, o.of.length());
-      all[0].labels.push_back(o.of.name);
+      const Ripples found = ripples(line, o.length);
+      all[0].labels.push_back(o.of.series);
       all[1].labels.emplace_back(program_commit());
       const double axial_cells = o.result.record.resolution.at("axial_cells");
       std::size_t column = 2;
       for (const double value :
-           {o.of.bend, axial_cells, line.time, pressure_at(o, line.time), found.amplitude, found.wave_length})
+           {o.bend, axial_cells, line.time, pressure_at(o, line.time), found.amplitude, found.wave_length})
         all[column++].values.push_back(value);
     }
   return observables::to_csv(all);
@@ -192,25 +164,14 @@ std::string csv(const std::vector<Outcome>& outcomes) {
 
 }  // namespace
 
-int main(int count, char** arguments) {
-  if (count != 5) {
-    fmt::print(stderr, "usage: tunica_torus_ripples PAGE SCENE PICTURE CSV\n");
-    return 2;
+void tunica::verification::torus_ripples(const Study& study) {
+  const Page page(study.out("docs/verification/tether-stability.md"), "torus", "tools/study torus-ripples");
+  std::vector<Outcome> outcomes;
+  // After every run, as they take long.
+  for (const StudyCase& of : study.cases("runs")) {
+    outcomes.push_back(outcome_of(study, of));
+    page.write(table(outcomes));
+    write_whole(study.out("docs/images/torus-ripples.svg"), picture(outcomes));
+    write_whole(study.out("notebooks_data/torus_ripples.csv"), csv(outcomes));
   }
-  try {
-    const Page page(arguments[1], "torus", "tunica_torus_ripples");
-    const full3d::PetscSession petsc;
-    std::vector<Outcome> outcomes;
-    // After every run, as they take long.
-    for (const Case& of : cases()) {
-      outcomes.push_back(outcome_of(arguments[2], of));
-      page.write(table(outcomes));
-      write_whole(arguments[3], picture(outcomes));
-      write_whole(arguments[4], csv(outcomes));
-    }
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "tunica_torus_ripples: {}\n", error.what());
-    return 2;
-  }
-  return 0;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "verification/elastic_tube_runs.hpp"
+#include "verification/studies/elastic_tube_runs.hpp"
 
 #include <fmt/format.h>
 
@@ -32,20 +32,19 @@ TubePeak peak_of(const TubeTrace& trace) {
   return {time, u0 + slope * (time - t0) + curve * (time - t0) * (time - t1)};
 }
 
-TubeRun run_tube(const Tier& tier, const std::filesystem::path& scene, std::vector<std::string> overrides) {
-  overrides.emplace_back("output.field_interval=0");
-  const Scene tube = read_scene(scene, overrides);
-  const Result result = tier.prepare(tube)->execute({});
-  if (!result.record.failure.empty()) throw SolverFailure(result.record.failure);
+TubeRun tube_run(const run::Outcome& outcome) {
+  if (outcome.ending != run::Ending::done) throw SolverFailure(outcome.reason);
+  const observables::Table& table = outcome.stored->result.observables;
   TubeRun run{};
-  run.trace.time = result.observables.find("time")->values;
+  run.trace.time = table.find("time")->values;
   constexpr double mm = 10;  // in a cm
-  for (const double u : result.observables.find("radial_displacement.P1")->values)
+  for (const double u : table.find("radial_displacement.P1")->values)
     run.trace.displacement.push_back(mm * u);
   run.peak = peak_of(run.trace);
-  run.unknowns = result.record.unknowns;
-  run.steps = result.record.steps;
-  run.seconds = result.record.solve_seconds;
+  const RunRecord& record = outcome.stored->result.record;
+  run.unknowns = record.unknowns;
+  run.steps = record.steps;
+  run.seconds = record.solve_seconds;
   return run;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "verification/ripple_tables.hpp"
+#include "verification/studies/ripple_tables.hpp"
 
 #include <fmt/format.h>
 

@@ -1,23 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// tunica_elastic_tube SCENE PUBLISHED PAGE PICTURE CSV: the elastic-tube benchmark on meshes and with steps
-// of several sizes, schemes and laws. Writes the tables of docs/verification/elastic-tube.md between its
-// marks, the traces as an SVG and as CSV. PUBLISHED is notebooks_data/elastic_tube_published.csv.
+// The elastic-tube benchmark on meshes and with steps of several sizes, schemes and laws: the tables of
+// docs/verification/elastic-tube.md, the traces as an SVG and as CSV, beside the published ones.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <array>
 #include <cmath>
-#include <exception>
-#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
 
-#include "axisym/axisym_tier.hpp"
 #include "core/observables/result.hpp"
-#include "verification/elastic_tube_runs.hpp"
 #include "verification/line_chart.hpp"
 #include "verification/page.hpp"
+#include "verification/studies/elastic_tube_runs.hpp"
+#include "verification/studies/study.hpp"
 
 using namespace tunica;
 using namespace tunica::verification;
@@ -32,43 +29,23 @@ constexpr std::array<Method, 3> methods{
     {{"bdf2", "BDF2"}, {"backward-euler", "backward Euler"}, {"generalized-alpha", "generalised-α"}}};
 constexpr double usual_step = 5e-5;
 
-struct Cells {
-  int wall, lumen, axial;
-  std::string name() const { return fmt::format("{} x {}, {}", wall, lumen, axial); }
-};
-constexpr Cells usual{2, 4, 160};
-/// Refined one direction at a time: the errors of two of them are opposite, and would hide each other.
-struct Direction {
-  const char* name;
-  std::array<Cells, 4> cells;
-};
-constexpr std::array<Direction, 3> directions{
-    {{"along the tube", {{{2, 4, 40}, {2, 4, 80}, {2, 4, 160}, {2, 4, 320}}}},
-     {"across the lumen", {{{2, 2, 160}, {2, 4, 160}, {2, 8, 160}, {2, 16, 160}}}},
-     {"through the wall", {{{1, 4, 160}, {2, 4, 160}, {4, 4, 160}, {8, 4, 160}}}}}};
-using MeshStudy = std::array<std::array<TubeRun, 4>, 3>;
+using MeshStudy = std::vector<std::pair<StudyCase, TubeRun>>;  ///< a direction after the other
+constexpr std::size_t meshes_a_direction = 4;
 
-using Study = std::map<std::pair<std::string, double>, TubeRun>;
+using StepStudy = std::map<std::pair<std::string, double>, TubeRun>;
 
-class Tube {
- public:
-  explicit Tube(std::filesystem::path scene) : scene_(std::move(scene)) {}
+TubeRun run_of(const Study& study, const StudyCase& of) {
+  TubeRun run = tube_run(study.computed(of));
+  fmt::print(stderr, "{}: {:.6f} mm at {:.4f} ms, {} unknowns, {} steps, {:.1f} s\n",
+             fmt::join(of.overrides, " "), run.peak.displacement, 1e3 * run.peak.time, run.unknowns,
+             run.steps, run.seconds);
+  return run;
+}
 
-  TubeRun run(const Cells& cells, double step, std::vector<std::string> more) const {
-    more.insert(
-        more.end(),
-        {fmt::format("mesh.wall_cells={}", cells.wall), fmt::format("mesh.blood_cells={}", cells.lumen),
-         fmt::format("mesh.axial_cells={}", cells.axial), fmt::format("time.step={}", step)});
-    const TubeRun run = run_tube(tier_, scene_, more);
-    fmt::print(stderr, "{}: {:.6f} mm at {:.4f} ms, {} unknowns, {} steps, {:.1f} s\n", fmt::join(more, " "),
-               run.peak.displacement, 1e3 * run.peak.time, run.unknowns, run.steps, run.seconds);
-    return run;
-  }
-
- private:
-  axisym::AxisymTier tier_;
-  std::filesystem::path scene_;
-};
+std::string cells_of(const StudyCase& of) {
+  return fmt::format("{} x {}, {}", of.value("wall"), of.value("lumen"), of.value("axial"));
+}
+const std::string usual_cells = "2 x 4, 160";
 
 std::string percent(double ours, double reference) {
   return fmt::format("{:+.2f} %", 100 * (ours / reference - 1));
@@ -80,7 +57,7 @@ struct Limits {
   std::array<double, 3> in_mesh;  ///< what smaller cells add, mm
 };
 
-std::string step_table(const Study& study) {
+std::string step_table(const StepStudy& study) {
   std::vector<std::string> header{"step [s]", "published, BDF2 [mm]", "at [ms]"};
   for (const Method& method : methods)
     header.insert(header.end(), {fmt::format("{} [mm]", method.name), "at [ms]"});
@@ -102,7 +79,7 @@ std::string step_table(const Study& study) {
 }
 
 /// The order that the peak shows with a step and the two before it.
-std::string order_table(const Study& study) {
+std::string order_table(const StepStudy& study) {
   std::vector<std::string> header{"steps [s]", "published, BDF2"};
   for (const Method& method : methods) header.emplace_back(method.name);
   std::vector<std::vector<std::string>> rows;
@@ -121,21 +98,21 @@ std::string order_table(const Study& study) {
   return markdown_table(header, rows);
 }
 
-std::string mesh_table(const MeshStudy& on_meshes, const TubeRun& finest, const Cells& finest_cells) {
+std::string mesh_table(const MeshStudy& on_meshes, const TubeRun& finest, const StudyCase& finest_case) {
   std::vector<std::vector<std::string>> rows;
-  const auto add = [&](const std::string& refined, const Cells& cells, const TubeRun& run,
+  const auto add = [&](const std::string& refined, const StudyCase& of, const TubeRun& run,
                        const std::string& order) {
-    rows.push_back({refined, cells.name(), std::to_string(run.unknowns),
+    rows.push_back({refined, cells_of(of), std::to_string(run.unknowns),
                     fmt::format("{:.5f}", run.peak.displacement), fmt::format("{:.3f}", 1e3 * run.peak.time),
                     order});
   };
-  for (std::size_t d = 0; d < directions.size(); ++d)
-    for (std::size_t k = 0; k < directions[d].cells.size(); ++k) {
-      const auto peak = [&](std::size_t at) { return on_meshes[d][at].peak.displacement; };
-      add(directions[d].name, directions[d].cells[k], on_meshes[d][k],
-          k < 2 ? "" : order_text(peak(k - 2), peak(k - 1), peak(k)));
-    }
-  add("all", finest_cells, finest, "");
+  for (std::size_t k = 0; k < on_meshes.size(); ++k) {
+    const auto& [of, run] = on_meshes[k];
+    const auto peak = [&](std::size_t at) { return on_meshes[at].second.peak.displacement; };
+    add(of.value("refined"), of, run,
+        k % meshes_a_direction < 2 ? "" : order_text(peak(k - 2), peak(k - 1), peak(k)));
+  }
+  add("all", finest_case, finest, "");
   return markdown_table({"refined", "cells through wall x lumen, along", "unknowns", "peak [mm]", "at [ms]",
                          "order from three"},
                         rows);
@@ -143,7 +120,7 @@ std::string mesh_table(const MeshStudy& on_meshes, const TubeRun& finest, const 
 
 /// The usual mesh and step, and what smaller steps and cells in each direction add. Order 2 for all: the
 /// least that is observed.
-Limits limits_of(const Study& study, const MeshStudy& on_meshes) {
+Limits limits_of(const StepStudy& study, const MeshStudy& on_meshes) {
   const TubeRun& base = study.at({"bdf2", usual_step});
   const auto added = [](auto value, const TubeRun& coarse, const TubeRun& fine, const TubeRun& from) {
     return extrapolated(value(coarse), value(fine), 2) - value(from);
@@ -154,15 +131,20 @@ Limits limits_of(const Study& study, const MeshStudy& on_meshes) {
   Limits limits{base.peak, added(displacement, coarse, fine, base), {}};
   limits.tube.time += added(time, coarse, fine, base);
   limits.tube.displacement += limits.in_time;
-  for (std::size_t d = 0; d < directions.size(); ++d) {
-    limits.in_mesh[d] = added(displacement, on_meshes[d][2], on_meshes[d][3], base);
-    limits.tube.time += added(time, on_meshes[d][2], on_meshes[d][3], base);
+  for (std::size_t d = 0; d < limits.in_mesh.size(); ++d) {
+    const std::size_t last = d * meshes_a_direction + meshes_a_direction - 1;
+    const TubeRun &coarser = on_meshes[last - 1].second, &finer = on_meshes[last].second;
+    limits.in_mesh[d] = added(displacement, coarser, finer, base);
+    limits.tube.time += added(time, coarser, finer, base);
     limits.tube.displacement += limits.in_mesh[d];
   }
   return limits;
 }
 
-std::string limit_table(const Limits& limits) {
+std::string limit_table(const Limits& limits, const MeshStudy& on_meshes) {
+  const auto refined = [&](std::size_t d) {
+    return on_meshes[d * meshes_a_direction].first.value("refined");
+  };
   return markdown_table(
              {"limit for small steps and cells", "ours", "published", "difference", "bar"},
              {{"peak of the displacement [mm]", fmt::format("{:.4f}", limits.tube.displacement),
@@ -175,31 +157,15 @@ std::string limit_table(const Limits& limits) {
          fmt::format(
              "Ours: cells {} at {:g} s, plus {:+.5f} mm for smaller steps, and for smaller cells {:+.5f} mm "
              "{}, {:+.5f} mm {} and {:+.5f} mm {}.\n\n",
-             usual.name(), usual_step, limits.in_time, limits.in_mesh[0], directions[0].name,
-             limits.in_mesh[1], directions[1].name, limits.in_mesh[2], directions[2].name);
+             usual_cells, usual_step, limits.in_time, limits.in_mesh[0], refined(0), limits.in_mesh[1],
+             refined(1), limits.in_mesh[2], refined(2));
 }
 
-struct Variant {
-  std::string name;
-  std::vector<std::string> overrides;
-  double step = usual_step;
-  double factor = 1;  ///< on the displacement
-};
-
-std::vector<Variant> variants() {
-  return {{"linear elastic wall", {}},
-          {"St. Venant-Kirchhoff wall", {"wall.law=St-Venant-Kirchhoff"}},
-          {"a hundredth of the pressure, displacement times 100", {"inlet.pressure=133.32"}, usual_step, 100},
-          {"pulse of 3.05 ms", {"inlet.duration=3.05e-3"}},
-          {"automatic steps, accuracy.tolerance = 1 %", {"accuracy.tolerance=0.01"}, 0},
-          {"automatic steps, accuracy.tolerance = 0.1 %", {"accuracy.tolerance=1e-3"}, 0}};
-}
-
-std::string variant_table(const std::vector<TubeRun>& runs, const TubeTrace& published) {
+std::string variant_table(const std::vector<StudyCase>& all, const std::vector<TubeRun>& runs,
+                          const TubeTrace& published) {
   std::vector<std::vector<std::string>> rows;
-  const auto all = variants();
   for (std::size_t k = 0; k < all.size(); ++k)
-    rows.push_back({all[k].name, std::to_string(runs[k].steps),
+    rows.push_back({all[k].value("name"), std::to_string(runs[k].steps),
                     fmt::format("{:.4f}", runs[k].peak.displacement),
                     fmt::format("{:.2f}", 1e3 * runs[k].peak.time),
                     fmt::format("{:.4f}", greatest_difference(runs[k].trace, published, 0.012)),
@@ -214,7 +180,7 @@ std::vector<double> times(std::vector<double> values, double factor) {
   return values;
 }
 
-std::string picture(const Study& study, const TubeTrace& published) {
+std::string picture(const StepStudy& study, const TubeTrace& published) {
   LineChart traces{
       "Elastic tube: inner wall at mid-length, BDF2", "time [ms]", "radial displacement [mm]", {}, false};
   for (const double step : {8e-4, 2e-4, 5e-5, 1.25e-5}) {
@@ -258,64 +224,48 @@ std::string csv(const std::vector<std::pair<std::string, TubeTrace>>& traces) {
   return observables::to_csv(all);
 }
 
-void write_all(char** arguments) {
-  const Page page(arguments[3], "tables", "tunica_elastic_tube");
-  const auto columns = observables::read_csv(arguments[2]);
+}  // namespace
+
+void tunica::verification::elastic_tube(const Study& study) {
+  const Page page(study.out("docs/verification/elastic-tube.md"), "tables", "tools/study elastic-tube");
+  const auto columns =
+      observables::read_csv(study.source("notebooks_data/elastic_tube_published.csv").string());
   const TubeTrace published{columns[0].values, columns[1].values};
 
-  const Tube tube(arguments[1]);
-  Study study;
-  for (const Method& method : methods)
-    for (const double step : steps)
-      study[{method.scheme, step}] = tube.run(usual, step, {std::string("time.scheme=") + method.scheme});
+  StepStudy with_steps;
+  for (const StudyCase& of : study.cases("steps"))
+    with_steps[{of.value("scheme"), of.number("step")}] = run_of(study, of);
   MeshStudy on_meshes;
-  for (std::size_t d = 0; d < directions.size(); ++d)
-    for (std::size_t k = 0; k < directions[d].cells.size(); ++k)
-      on_meshes[d][k] = tube.run(directions[d].cells[k], usual_step, {});
-  const Cells finest_cells{4, 8, 320};
-  const TubeRun finest = tube.run(finest_cells, usual_step, {});
+  for (const StudyCase& of : study.cases("cells")) on_meshes.emplace_back(of, run_of(study, of));
+  const StudyCase& finest_case = study.cases("finest").front();
+  const TubeRun finest = run_of(study, finest_case);
   std::vector<TubeRun> of_variants;
-  for (const Variant& variant : variants()) {
-    TubeRun run = tube.run(usual, variant.step, variant.overrides);
-    run.trace.displacement = times(run.trace.displacement, variant.factor);
-    run.peak.displacement *= variant.factor;
+  for (const StudyCase& of : study.cases("variants")) {
+    TubeRun run = run_of(study, of);
+    run.trace.displacement = times(run.trace.displacement, of.number("factor"));
+    run.peak.displacement *= of.number("factor");
     of_variants.push_back(run);
   }
 
   std::vector<std::pair<std::string, TubeTrace>> named;
   for (const Method& method : methods)
     for (const double step : steps)
-      named.emplace_back(fmt::format("{}.{:g}s", method.scheme, step), study.at({method.scheme, step}).trace);
+      named.emplace_back(fmt::format("{}.{:g}s", method.scheme, step),
+                         with_steps.at({method.scheme, step}).trace);
   named.emplace_back("finest_mesh", finest.trace);
   named.emplace_back("st_venant_kirchhoff", of_variants[1].trace);
   named.emplace_back("small_amplitude", of_variants[2].trace);
 
   const std::string tables =
-      "### Limits\n\n" + limit_table(limits_of(study, on_meshes)) +
-      fmt::format("### Steps\n\nCells {}.\n\n", usual.name()) + step_table(study) +
-      "Order that the peak shows:\n\n" + order_table(study) +
+      "### Limits\n\n" + limit_table(limits_of(with_steps, on_meshes), on_meshes) +
+      fmt::format("### Steps\n\nCells {}.\n\n", usual_cells) + step_table(with_steps) +
+      "Order that the peak shows:\n\n" + order_table(with_steps) +
       fmt::format("### Cells\n\nBDF2 with steps of {:g} s.\n\n", usual_step) +
-      mesh_table(on_meshes, finest, finest_cells) +
-      fmt::format("### Variants\n\nCells {}; BDF2, steps of {:g} s unless said otherwise.\n\n", usual.name(),
+      mesh_table(on_meshes, finest, finest_case) +
+      fmt::format("### Variants\n\nCells {}; BDF2, steps of {:g} s unless said otherwise.\n\n", usual_cells,
                   usual_step) +
-      variant_table(of_variants, published);
-  write_whole(arguments[4], picture(study, published));
-  write_whole(arguments[5], csv(named));
+      variant_table(study.cases("variants"), of_variants, published);
+  write_whole(study.out("docs/images/elastic-tube.svg"), picture(with_steps, published));
+  write_whole(study.out("notebooks_data/elastic_tube.csv"), csv(named));
   page.write(tables);
-}
-
-}  // namespace
-
-int main(int count, char** arguments) {
-  if (count != 6) {
-    fmt::print(stderr, "usage: tunica_elastic_tube SCENE PUBLISHED PAGE PICTURE CSV\n");
-    return 2;
-  }
-  try {
-    write_all(arguments);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "tunica_elastic_tube: {}\n", error.what());
-    return 2;
-  }
-  return 0;
 }

@@ -2,12 +2,11 @@
 #pragma once
 
 #include <array>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "core/tier.hpp"
+#include "core/run/door.hpp"
 
 /// The elastic-tube benchmark: what is asked of a run of scenes/elastic_tube.toml, and what is published.
 namespace tunica::verification {
@@ -33,8 +32,8 @@ struct TubeRun {
   long unknowns, steps;
   double seconds;
 };
-/// Throws InvalidInput as read_scene does, SolverFailure when the tier gives up.
-TubeRun run_tube(const Tier& tier, const std::filesystem::path& scene, std::vector<std::string> overrides);
+/// What is asked of a run that was computed in this process. Throws SolverFailure where it is not done.
+TubeRun tube_run(const run::Outcome& outcome);
 
 /// Greatest difference of two traces up to a time, mm, at the times of the second.
 double greatest_difference(const TubeTrace& trace, const TubeTrace& reference, double until);

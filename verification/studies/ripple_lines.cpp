@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "verification/ripple_lines.hpp"
+#include "verification/studies/ripple_lines.hpp"
 
 #include <Eigen/Dense>
 #include <algorithm>

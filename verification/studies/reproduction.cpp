@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// tunica_reproduction FILE FOLDER... [-- FOLDER...]: writes docs/reproduction.md from the results in the
-// folders; those after -- read the fibre law otherwise.
+// docs/reproduction.md: the paper's straight artery under the four wall laws and the three readings of the
+// tether, and what other readings of the fibre law change. Results are kept as TETHER/LAW and
+// fibers/NUMBER.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <exception>
-#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -13,6 +12,7 @@
 
 #include "core/observables/result.hpp"
 #include "verification/claims.hpp"
+#include "verification/studies/study.hpp"
 
 using namespace tunica;
 using namespace tunica::verification;
@@ -72,11 +72,11 @@ std::string document(const std::vector<StoredResult>& runs, std::vector<StoredRe
       other_runs.push_back(run);
   return fmt::format(
       "<!-- SPDX-License-Identifier: GPL-3.0-or-later -->\n"
-      "<!-- Written by tools/reproduce; do not edit. -->\n"
+      "<!-- Written by tools/study reproduction; do not edit. -->\n"
       "# The paper's claims beside ours\n\n"
       "Every claim of Tricerri et al. on the straight artery, and what the 0D tier gives for the same scene "
       "over the\n"
-      "last of two beats from rest. `tools/reproduce` computes the four laws under the three readings of the "
+      "last of two beats from rest. `tools/study reproduction` computes the four laws under the three readings of the "
       "tether\n"
       "and writes this page; nothing is tuned to bring a number closer.\n\n"
       "The paper leaves some things open, and the readings are named beside each row:\n\n"
@@ -123,24 +123,11 @@ std::string document(const std::vector<StoredResult>& runs, std::vector<StoredRe
 
 }  // namespace
 
-int main(int count, char** arguments) {
-  if (count < 3) {
-    fmt::print(stderr, "usage: tunica_reproduction FILE FOLDER... [-- FOLDER...]\n");
-    return 2;
-  }
-  try {
-    std::vector<StoredResult> runs, other_runs;
-    auto* into = &runs;
-    for (const std::string_view argument : std::span(arguments, count).subspan(2)) {
-      if (argument == "--")
-        into = &other_runs;
-      else
-        into->push_back(read_result(argument));
-    }
-    write_whole(arguments[1], document(runs, std::move(other_runs)));
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "tunica_reproduction: {}\n", error.what());
-    return 2;
-  }
-  return 0;
+void tunica::verification::reproduction(const Study& study) {
+  std::vector<StoredResult> runs, other_runs;
+  for (const StudyCase& of : study.cases("laws"))
+    runs.push_back(study.stored(of, of.series + "/" + of.value("law")));
+  for (const StudyCase& of : study.cases("fibers"))
+    other_runs.push_back(study.stored(of, fmt::format("fibers/{}", other_runs.size() + 1)));
+  write_whole(study.out("docs/reproduction.md"), document(runs, std::move(other_runs)));
 }
