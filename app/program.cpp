@@ -130,6 +130,9 @@ int tunica::run_program(int argc, char** argv, const Program& program) {
                        "Begin anew also where that discards stopped runs of another scene");
   verify_app->add_flag("--quiet", verify.quiet, "Print errors only");
 
+  SweepArguments sweep;
+  auto* sweep_app = add_sweep_command(app, sweep);
+
   SceneArguments scene;
   auto* scene_app = app.add_subcommand("scene", "Show a scene with every default, unit and meaning");
   scene_app->add_option("scene", scene.scene, "Scene file (TOML)")->type_name("SCENE");
@@ -158,7 +161,7 @@ int tunica::run_program(int argc, char** argv, const Program& program) {
     if (!known && argv[1][0] != '-') {
       return complain(
           program,
-          fmt::format("{} is not a command; there are: run, verify, scene, report (see tunica --help)",
+          fmt::format("{} is not a command; there are: run, verify, sweep, scene, report (see tunica --help)",
                       argv[1]),
           bad_input);
     }
@@ -168,6 +171,7 @@ int tunica::run_program(int argc, char** argv, const Program& program) {
   try {
     if (*run_app) return after_output(program, run_command(run, program));
     if (*verify_app) return after_output(program, verify_command(verify, program));
+    if (*sweep_app) return after_output(program, sweep_command(sweep, program));
     if (*scene_app) return after_output(program, scene_command(scene));
     return after_output(program, report_command(report));
   } catch (const InvalidInput& error) {

@@ -11,8 +11,28 @@
 
 namespace tunica {
 
-/// Cores that this process may use: under taskset, or in a container, fewer than the machine has.
+/// While one is there, available_threads() of the thread that made it is no more than its limit: work that is
+/// one of many pieces side by side leaves the other cores to them.
+class ThreadLimit {
+ public:
+  explicit ThreadLimit(int limit) : before_(current()) { current() = limit; }
+  ~ThreadLimit() { current() = before_; }
+  ThreadLimit(const ThreadLimit&) = delete;
+  ThreadLimit& operator=(const ThreadLimit&) = delete;
+
+  /// Of this thread; 0 for none.
+  static int& current() {
+    thread_local int limit = 0;
+    return limit;
+  }
+
+ private:
+  int before_;
+};
+
+/// Cores that this thread may use: under taskset, or in a container, fewer than the machine has.
 inline int available_threads() {
+  if (ThreadLimit::current() > 0) return ThreadLimit::current();
   cpu_set_t cores;
   CPU_ZERO(&cores);
   if (sched_getaffinity(0, sizeof cores, &cores) != 0) return 1;

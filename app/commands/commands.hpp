@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "app/program.hpp"
+
+namespace CLI {
+class App;
+}
 
 namespace tunica {
 
@@ -32,6 +37,25 @@ struct VerifyArguments {
   bool quiet = false;
 };
 int verify_command(const VerifyArguments& arguments, const Program& program);
+
+struct SweepArguments {
+  std::string scene;
+  std::string tier = "auto";
+  std::vector<std::string> overrides, vary, quantities;
+  std::string sample;  ///< "sobol:100"; empty for a grid
+  std::string points;  ///< CSV file
+  std::uint64_t seed = 0;
+  bool gradients = false, keep_runs = false, timings = false;
+  int jobs = 0;  ///< 0: all cores
+  int ranks = 1;
+  std::string shard;  ///< "1/4"; empty: all, or what a Slurm array says
+  std::vector<std::string> merge;
+  std::string out;
+  bool resume = false, replace = false, quiet = false;
+};
+int sweep_command(const SweepArguments& arguments, const Program& program);
+/// Declares the command and what it is given; the arguments have to outlive the parsing.
+CLI::App* add_sweep_command(CLI::App& app, SweepArguments& arguments);
 
 struct SceneArguments {
   std::string scene;

@@ -153,6 +153,10 @@ const char* name_of(Ending ending) {
   }
 }
 
+std::string sensitivity_override(const std::vector<std::string>& keys) {
+  return fmt::format("sensitivity.parameters=[\"{}\"]", fmt::join(keys, "\", \""));
+}
+
 Door::Door(const TierList& tiers, SceneSource source, DoorOptions options)
     : tiers_(tiers), source_(std::move(source)), options_(std::move(options)) {}
 
@@ -318,9 +322,7 @@ Outcome Door::ask(const Case& what, const Question& question, const RunControl& 
   Outcome outcome;
   guarded(outcome, [&] {
     Case asked = what;
-    if (!question.keys.empty())
-      asked.overrides.push_back(
-          fmt::format("sensitivity.parameters=[\"{}\"]", fmt::join(question.keys, "\", \"")));
+    if (!question.keys.empty()) asked.overrides.push_back(sensitivity_override(question.keys));
     const Scene scene = source_.with(asked.overrides);
     const Tier& tier = choose_tier(tiers_, what.tier, scene);
     outcome.tier = tier.name();

@@ -87,6 +87,9 @@ class Prepared {
       const std::function<void(const std::string&)>& not_saved = [](const std::string&) {}) = 0;
 };
 
+/// The override that asks a run for derivatives by keys.
+std::string sensitivity_override(const std::vector<std::string>& keys);
+
 /// The one door through which cases are computed: in process by the tiers of this program, by a process of
 /// their own where a tier is here by name only. Any number of threads may ask at once.
 class Door {

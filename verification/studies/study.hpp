@@ -25,13 +25,14 @@ struct StudyOptions {
   std::filesystem::path source;   ///< the repository: scenes, case files, pages to begin with
   std::filesystem::path out;      ///< pages, pictures and numbers, at the same places as in the repository
   std::filesystem::path program;  ///< tunica
-  std::filesystem::path kept;     ///< runs that need not be repeated while program and scene are the same
+  std::filesystem::path kept;     ///< runs that need not be repeated by the same program
 };
 
 /// What a study works with: its cases, the door that computes them, and its files.
 class Study {
  public:
-  /// Reads the cases of verification/studies/NAME.toml; of an empty name there are none. `tiers` are those that compute in this process.
+  /// Reads the cases of verification/studies/NAME.toml; of an empty name there are none. `tiers` are those
+  /// that compute in this process.
   Study(const std::string& name, StudyOptions options, const TierList& tiers);
 
   const std::vector<StudyCase>& cases(std::string_view group) const { return cases_.group(group); }

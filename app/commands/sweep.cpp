@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <utility>
+
+#include "app/commands/commands.hpp"
+#include "app/interrupt.hpp"
+#include "app/progress.hpp"
+#include "app/result_folder.hpp"
+#include "app/tell.hpp"
+#include "core/error.hpp"
+#include "core/run/choose_tier.hpp"
+#include "core/scene/parameter.hpp"
+#include "core/threads.hpp"
+#include "verification/sweep/campaign.hpp"
+
+namespace tunica {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::unique_ptr<sweep::Points> points_of(const SweepArguments& arguments) {
+  const int ways = (!arguments.vary.empty()) + (!arguments.points.empty());
+  if (ways != 1) throw InvalidInput("sweep: say what varies by --vary KEY=LO:HI:N, or by --points FILE.csv");
+  if (!arguments.points.empty()) {
+    if (!arguments.sample.empty())
+      throw InvalidInput("sweep: --points lists the points, and --sample draws them; leave one out");
+    return sweep::list_points(arguments.points);
+  }
+  std::vector<sweep::Axis> axes;
+  for (const std::string& text : arguments.vary) axes.push_back(sweep::parse_axis(text));
+  if (arguments.sample.empty()) return sweep::grid_points(std::move(axes));
+  const auto [sampling, count] = sweep::parse_sample(arguments.sample);
+  return sweep::sample_points(std::move(axes), sampling, count, arguments.seed);
+}
+
+run::Question question_of(const SweepArguments& arguments, const sweep::Points& points) {
+  run::Question question;
+  for (const std::string& name : arguments.quantities) {
+    question.quantities.push_back(run::parse_quantity(name));
+    if (std::count(arguments.quantities.begin(), arguments.quantities.end(), name) > 1)
+      throw InvalidInput(fmt::format("--quantity {}: is there twice; leave one out", name));
+  }
+  if (question.quantities.empty()) question.quantities = run::known_quantities();
+  if (!arguments.gradients) return question;
+  for (const sweep::Varied& varied : points.keys())
+    if (scene::find_parameter(varied.key)->kind == scene::Kind::number) question.keys.push_back(varied.key);
+  if (question.keys.empty())
+    throw InvalidInput("--gradients: none of the keys that vary holds a number that has derivatives");
+  return question;
+}
+
+int tell_end(const sweep::SweepSummary& summary, const fs::path& folder, bool quiet) {
+  const std::uint64_t ended = summary.done + summary.gave_up + summary.refused;
+  if (summary.interrupted) {
+    tell(fmt::format("tunica: interrupted; {} of {} points are in {}, --resume goes on\n", ended,
+                     summary.count, folder.string()));
+    return interrupted;
+  }
+  if (!quiet)
+    tell(fmt::format("{}: {} points done{}{}: sweep.csv, sweep.db, sweep.json\n", folder.string(),
+                     summary.done, summary.gave_up > 0 ? fmt::format(", {} gave up", summary.gave_up) : "",
+                     summary.refused > 0 ? fmt::format(", {} refused", summary.refused) : ""),
+         stdout);
+  if (summary.done > 0) return done;
+  tell(fmt::format("tunica: {}: no point has a result; sweep.csv says why, in its column reason\n",
+                   folder.string()));
+  return gave_up;
+}
+
+}  // namespace
+
+int sweep_command(const SweepArguments& arguments, const Program& program) {
+  if (!arguments.merge.empty()) {
+    if (!arguments.scene.empty() || arguments.out.empty())
+      throw InvalidInput("sweep --merge: name the folders of the shards and --out, and nothing else");
+    return tell_end(
+        sweep::merge({arguments.merge.begin(), arguments.merge.end()}, arguments.out, arguments.replace),
+        arguments.out, arguments.quiet);
+  }
+  if (arguments.scene.empty()) throw InvalidInput("sweep: name a scene (see tunica sweep --help)");
+  if (arguments.jobs < 0 || arguments.ranks < 1)
+    throw InvalidInput("sweep: --jobs and --ranks are numbers of 1 or more");
+  const auto points = points_of(arguments);
+  run::DoorOptions options;
+  options.program = fs::read_symlink("/proc/self/exe").parent_path() / "tunica";
+  options.ranks = arguments.ranks;
+  const run::Door door(program.tiers(), run::SceneSource(arguments.scene, arguments.overrides), options);
+  const Tier& tier = run::choose_tier(program.tiers(), arguments.tier, door.source().scene());
+  const run::Question question = question_of(arguments, *points);
+  sweep::Shard shard;
+  std::vector<std::string> parts{"sweep"};
+  if (!arguments.shard.empty()) {
+    shard = sweep::parse_shard(arguments.shard);
+  } else if (const auto of_array = sweep::shard_of_slurm_array()) {
+    shard = *of_array;
+    if (!arguments.quiet)
+      spdlog::info("task of a Slurm array: computing shard {} (--shard 1/1 computes all)", shard.text());
+  }
+  // Tasks of an array are given one command, and so one folder.
+  fs::path folder = arguments.out.empty()
+                        ? result_folder(door.source().scene().name(), parts, arguments.overrides)
+                        : fs::path(arguments.out);
+  if (!shard.is_whole() && arguments.shard.empty())
+    folder /= fmt::format("shard-{}-of-{}", shard.index, shard.count);
+
+  // A process computes with all the cores that it is given; several of them side by side would wait for each
+  // other's memory.
+  const int jobs = arguments.jobs > 0 ? arguments.jobs : tier.computes() ? available_threads() : 1;
+  heed_interrupts(arguments.quiet);
+  SweepDisplay display(arguments.quiet);
+  sweep::SweepControl control;
+  control.resume = arguments.resume;
+  control.replace = arguments.replace;
+  control.interrupted = stop_asked;
+  bool begun = false;
+  control.report = [&](const sweep::SweepProgress& progress) {
+    if (!std::exchange(begun, true)) computation_begins();
+    display.show(progress);
+  };
+  const sweep::Campaign campaign{door, arguments.tier,      *points,          question, shard,
+                                 jobs, arguments.keep_runs, arguments.timings};
+  return tell_end(sweep::run_sweep(campaign, folder, control), folder, arguments.quiet);
+}
+
+}  // namespace tunica

@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "verification/sweep/campaign.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+
+#include "core/error.hpp"
+#include "core/observables/build_info.hpp"
+#include "core/observables/folder_lock.hpp"
+#include "core/observables/inputs.hpp"
+#include "core/scene/message.hpp"
+#include "core/scene/parameter.hpp"
+#include "verification/sweep/execute.hpp"
+
+namespace tunica::sweep {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+std::optional<std::uint64_t> whole_number(std::string_view text) {
+  std::uint64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size()) return {};
+  return value;
+}
+
+std::optional<std::uint64_t> environment_number(const char* name) {
+  const char* text = std::getenv(name);
+  return text ? whole_number(text) : std::nullopt;
+}
+
+/// Refuses a key whose values at the ends the declaration does not allow.
+void check_bounds(const Json& parameter) {
+  const std::string key = parameter.at("key");
+  const scene::Bounds& bounds = scene::find_parameter(key)->bounds;
+  const auto refuse_value = [&](double value) {
+    if (!bounds.contains(value))
+      throw InvalidInput(fmt::format("--vary {}: {} is not allowed, {} has to be {}", key,
+                                     scene::with_unit(value, parameter.at("unit").get<std::string>()), key,
+                                     bounds.text()));
+  };
+  if (parameter.contains("distribution")) {
+    const auto marginal =
+        uncertainty::parse_marginal(parameter.at("distribution").get<std::string>(), key, "1");
+    // Beyond what even long sweeps draw a tail is no reason to refuse.
+    constexpr double negligible = 1e-9;
+    const double outside = (std::isfinite(bounds.lower) ? marginal->probability(bounds.lower) : 0) +
+                           (std::isfinite(bounds.upper) ? 1 - marginal->probability(bounds.upper) : 0);
+    if (outside > negligible)
+      throw InvalidInput(fmt::format(
+          "--vary {}: {} leaves the range of the key ({}) with a probability of {:.2g} %; take a narrower one, "
+          "or a lognormal, uniform or triangular distribution within it",
+          key, marginal->text(), bounds.text(), 100 * outside));
+  } else if (parameter.contains("values") && parameter.at("unit") != "") {
+    for (const std::string value : parameter.at("values")) refuse_value(std::stod(value));
+  }
+}
+
+/// Refuses keys without effect on the scene. A point in a corner may be no scene; the first that is one tells.
+void check_keys(const Campaign& campaign) {
+  std::optional<InvalidInput> refusal;
+  constexpr std::uint64_t enough = 64;
+  for (std::uint64_t point = 0; point < std::min(enough, campaign.points.count()); ++point) {
+    const auto values = overrides(campaign.points, campaign.points.values(point));
+    try {
+      const Scene scene = campaign.door.source().with(values);
+      for (const Varied& varied : campaign.points.keys()) {
+        if (scene.has(varied.key)) continue;
+        std::string reason = "it is not used by this scene";
+        for (const std::string& remark : scene.remarks())
+          if (remark.starts_with(varied.key + " is not used")) reason = remark;
+        throw InvalidInput(fmt::format("--vary {}: {}", varied.key, reason));
+      }
+      return;
+    } catch (const InvalidInput& error) {
+      if (std::string_view(error.what()).starts_with("--vary")) throw;
+      if (!refusal) refusal = error;
+    }
+  }
+  if (refusal) throw *refusal;
+}
+
+Json describe(const Campaign& campaign) {
+  const Scene& scene = campaign.door.source().scene();
+  Json all;
+  all["program"] = "tunica sweep";
+  all["version"] = program_version();
+  all["commit"] = program_commit();
+  all["scene"] = scene.name();
+  all["tier"] = campaign.tier;
+  all["design"] = campaign.points.describe();
+  all["points"] = campaign.points.count();
+  Json quantities = Json::array();
+  for (const run::Quantity& quantity : campaign.question.quantities) quantities.push_back(quantity.name());
+  all["quantities"] = std::move(quantities);
+  all["gradients"] = campaign.question.keys;
+  all["timings"] = campaign.timings;
+  all["input_files"] = input_files(scene);
+  all["scene_toml"] = tunica::describe(scene);
+  all["scene_file"] = campaign.door.source().file().string();
+  all["overrides"] = campaign.door.source().overrides();
+  return all;
+}
+
+/// What makes two parts the same sweep, and its name in messages.
+struct Part {
+  const char *entry, *name;
+};
+constexpr Part identity[] = {{"version", "the program's version"},
+                             {"commit", "the program's commit"},
+                             {"scene_toml", "the scene"},
+                             {"input_files", "the contents of a file that the scene names"},
+                             {"tier", "the tier"},
+                             {"design", "what varies"},
+                             {"points", "the number of points"},
+                             {"quantities", "the quantities"},
+                             {"gradients", "the gradients"}};
+
+/// "the scene"; empty when both are the same sweep.
+std::string difference(const Json& one, const Json& other) {
+  for (const Part& part : identity)
+    if (one.value(part.entry, Json()) != other.value(part.entry, Json())) return part.name;
+  return {};
+}
+
+Shard shard_in(const Json& campaign) {
+  return {campaign.at("shard").at("index"), campaign.at("shard").at("count")};
+}
+
+std::uint64_t points_of(const Shard& shard, std::uint64_t count) {
+  return count / shard.count + (shard.index - 1 < count % shard.count ? 1 : 0);
+}
+
+void write_campaign(Json all, const Shard& shard, const Table& table, const fs::path& folder) {
+  all["shard"] = {{"index", shard.index}, {"count", shard.count}};
+  const auto count = [&](run::Ending ending) { return table.count(run::name_of(ending)); };
+  all["counts"] = {{"done", count(run::Ending::done)},
+                   {"gave-up", count(run::Ending::gave_up)},
+                   {"refused", count(run::Ending::refused)}};
+  write_whole(folder / campaign_file, all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+void remove_sweep(const fs::path& folder) {
+  std::error_code not_there;
+  // The table first: what is left of a removal that is cut short is no sweep.
+  for (const char* file :
+       {"sweep.json", "sweep.db", "sweep.db-wal", "sweep.db-shm", "sweep.csv", "indices.csv", "report.html"})
+    fs::remove(folder / file, not_there);
+}
+
+SweepSummary summary_of(const Table& table) {
+  return {0, table.count("done"), table.count("gave-up"), table.count("refused"), false};
+}
+
+}  // namespace
+
+std::string Shard::text() const {
+  return fmt::format("{}/{}", index, count);
+}
+
+Shard parse_shard(const std::string& text) {
+  const std::size_t slash = text.find('/');
+  const auto index = whole_number(std::string_view(text).substr(0, slash));
+  const auto count =
+      slash == std::string::npos ? std::nullopt : whole_number(std::string_view(text).substr(slash + 1));
+  if (!index || !count || *index < 1 || *index > *count)
+    throw InvalidInput(
+        fmt::format("--shard {}: write i/n, the i-th of n parts, 1/n to n/n", scene::one_line(text)));
+  return {*index, *count};
+}
+
+std::optional<Shard> shard_of_slurm_array() {
+  const auto id = environment_number("SLURM_ARRAY_TASK_ID"),
+             count = environment_number("SLURM_ARRAY_TASK_COUNT"),
+             first = environment_number("SLURM_ARRAY_TASK_MIN");
+  if (!id || !count || *count < 2) return {};
+  const auto step = environment_number("SLURM_ARRAY_TASK_STEP").value_or(1);
+  const std::uint64_t begin = first.value_or(0);
+  if (*id < begin || step == 0 || (*id - begin) % step != 0 || (*id - begin) / step >= *count)
+    throw InvalidInput(
+        fmt::format("SLURM_ARRAY_TASK_ID = {} is no task of an array of {} from {} in steps of "
+                    "{}; name the part with --shard i/n",
+                    *id, *count, begin, step));
+  return Shard{(*id - begin) / step + 1, *count};
+}
+
+Json read_campaign(const fs::path& folder) {
+  std::ifstream stream(folder / campaign_file);
+  const Json all = stream ? Json::parse(stream, nullptr, false) : Json();
+  if (!all.is_object() || all.value("program", Json()) != "tunica sweep")
+    throw InvalidInput(
+        fmt::format("{}: no sweep here ({} is missing or another one's)", folder.string(), campaign_file));
+  return all;
+}
+
+bool holds_sweep(const fs::path& folder) {
+  std::error_code unreadable;
+  return fs::exists(folder / campaign_file, unreadable) || fs::exists(folder / database_file, unreadable);
+}
+
+SweepSummary run_sweep(const Campaign& campaign, const fs::path& folder, const SweepControl& control) {
+  const Json design = campaign.points.describe();
+  for (const Json& parameter : design.at("parameters")) check_bounds(parameter);
+  check_keys(campaign);
+  const Json self = describe(campaign);
+  const bool is_there = holds_sweep(folder);
+  if (is_there && control.resume) {
+    const Json kept = read_campaign(folder);
+    if (const std::string other = difference(kept, self); !other.empty())
+      throw InvalidInput(
+          fmt::format("{}: holds another sweep: {} is not the same; leave out --resume and name "
+                      "another folder with --out, or write --replace to discard it",
+                      folder.string(), other));
+    if (shard_in(kept).text() != campaign.shard.text())
+      throw InvalidInput(fmt::format("{}: holds shard {}, not {}; name another folder with --out",
+                                     folder.string(), shard_in(kept).text(), campaign.shard.text()));
+  } else if (is_there && !control.replace) {
+    throw InvalidInput(fmt::format(
+        "{}: holds a sweep; --resume goes on with it, --replace discards it, --out names another folder",
+        folder.string()));
+  }
+  make_result_folder(folder);
+  const FolderLock lock(folder);
+  const bool goes_on = is_there && control.resume && fs::exists(folder / database_file);
+  if (!goes_on) remove_sweep(folder);
+  Table table(folder / database_file, goes_on ? Table::Mode::open : Table::Mode::create,
+              campaign.points.keys(), number_columns(campaign.question));
+  write_campaign(self, campaign.shard, table, folder);
+  const bool interrupted = execute(campaign, folder, table, control);
+  write_csv(table, folder / table_file, campaign.timings);
+  write_campaign(self, campaign.shard, table, folder);
+  SweepSummary summary = summary_of(table);
+  summary.count = points_of(campaign.shard, campaign.points.count());
+  summary.interrupted = interrupted;
+  return summary;
+}
+
+SweepSummary merge(const std::vector<fs::path>& folders, const fs::path& out, bool replace) {
+  if (folders.size() < 2) throw InvalidInput("--merge: name at least two folders of shards");
+  const Json first = read_campaign(folders.front());
+  const std::uint64_t count = shard_in(first).count;
+  std::vector<fs::path> by_index(count);
+  for (const fs::path& folder : folders) {
+    const Json campaign = read_campaign(folder);
+    if (const std::string other = difference(first, campaign); !other.empty())
+      throw InvalidInput(fmt::format("{}: a part of another sweep than {}: {} is not the same",
+                                     folder.string(), folders.front().string(), other));
+    const Shard shard = shard_in(campaign);
+    if (shard.count != count)
+      throw InvalidInput(fmt::format("{}: is shard {}, and {} is {}: parts of different numbers do not fit",
+                                     folder.string(), shard.text(), folders.front().string(),
+                                     shard_in(first).text()));
+    fs::path& place = by_index.at(shard.index - 1);
+    if (!place.empty())
+      throw InvalidInput(
+          fmt::format("{} and {}: are both shard {}", place.string(), folder.string(), shard.text()));
+    place = folder;
+    const auto has = campaign.at("counts");
+    const std::uint64_t ended = has.at("done").get<std::uint64_t>() + has.at("gave-up").get<std::uint64_t>() +
+                                has.at("refused").get<std::uint64_t>();
+    const std::uint64_t needed = points_of(shard, campaign.at("points").get<std::uint64_t>());
+    if (ended != needed)
+      throw InvalidInput(fmt::format("{}: shard {} has {} of {} points; complete it with --resume",
+                                     folder.string(), shard.text(), ended, needed));
+  }
+  for (std::uint64_t k = 0; k < count; ++k)
+    if (by_index[k].empty()) throw InvalidInput(fmt::format("--merge: shard {}/{} is missing", k + 1, count));
+  if (holds_sweep(out) && !replace)
+    throw InvalidInput(
+        fmt::format("{}: holds a sweep; --replace discards it, --out names another folder", out.string()));
+  make_result_folder(out);
+  const FolderLock lock(out);
+  remove_sweep(out);
+  run::Question question;
+  for (const std::string name : first.at("quantities"))
+    question.quantities.push_back(run::parse_quantity(name));
+  question.keys = first.at("gradients").get<std::vector<std::string>>();
+  std::vector<Varied> keys;
+  for (const Json& parameter : first.at("design").at("parameters"))
+    keys.push_back({parameter.at("key"), parameter.at("unit")});
+  Table table(out / database_file, Table::Mode::create, keys, number_columns(question));
+  for (const fs::path& folder : by_index) table.take(folder / database_file);
+  Json all = first;
+  write_csv(table, out / table_file, first.at("timings"));
+  write_campaign(std::move(all), {}, table, out);
+  SweepSummary summary = summary_of(table);
+  summary.count = first.at("points");
+  return summary;
+}
+
+}  // namespace tunica::sweep

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "verification/sweep/execute.hpp"
+
+#include <fmt/format.h>
+#include <tbb/parallel_pipeline.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <atomic>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/threads.hpp"
+
+namespace tunica::sweep {
+
+namespace {
+
+/// A point on its way through the pipeline.
+struct Job {
+  Row row;
+  bool is_ended = false;  ///< false when it was interrupted
+};
+
+class Execution {
+ public:
+  Execution(const Campaign& campaign, const std::filesystem::path& folder, Table& table,
+            const SweepControl& control)
+      : campaign_(campaign), folder_(folder), table_(table), control_(control), has_row_(table.points()) {
+    progress_.count = campaign.points.count() / campaign.shard.count +
+                      (campaign.shard.index - 1 < campaign.points.count() % campaign.shard.count ? 1 : 0);
+    progress_.ended = has_row_.size();
+    progress_.failed = has_row_.size() - table.count(run::name_of(run::Ending::done));
+    next_ = campaign.shard.index - 1;
+  }
+
+  bool run() {
+    // Few more than there are threads: a row that waits for its turn is memory.
+    const auto tokens = static_cast<std::size_t>(2 * campaign_.jobs);
+    tbb::task_arena arena(campaign_.jobs);
+    control_.report(progress_);
+    arena.execute([&] {
+      tbb::parallel_pipeline(
+          tokens, tbb::make_filter<void, Job>(tbb::filter_mode::serial_in_order,
+                                              [this](tbb::flow_control& flow) { return take(flow); }) &
+                      tbb::make_filter<Job, Job>(tbb::filter_mode::parallel,
+                                                 [this](Job job) { return compute(std::move(job)); }) &
+                      tbb::make_filter<Job, void>(tbb::filter_mode::serial_out_of_order,
+                                                  [this](const Job& job) { keep(job); }));
+    });
+    return interrupted_;
+  }
+
+ private:
+  bool asked_to_stop() {
+    if (!interrupted_ && control_.interrupted()) interrupted_ = true;
+    return interrupted_;
+  }
+
+  Job take(tbb::flow_control& flow) {
+    while (done_before_ < has_row_.size() && next_ < campaign_.points.count() &&
+           has_row_[done_before_] == next_) {
+      ++done_before_;
+      next_ += campaign_.shard.count;
+    }
+    if (next_ >= campaign_.points.count() || asked_to_stop()) {
+      flow.stop();
+      return {};
+    }
+    Job job;
+    job.row.point = std::exchange(next_, next_ + campaign_.shard.count);
+    job.row.keys = campaign_.points.values(job.row.point);
+    return job;
+  }
+
+  Job compute(Job job) {
+    // Cores are shared by points, not within them.
+    const ThreadLimit one(1);
+    RunControl control;
+    control.interrupted = [this] { return asked_to_stop(); };
+    const run::Case what{campaign_.tier, overrides(campaign_.points, job.row.keys)};
+    const run::Outcome outcome = campaign_.keep_runs ? kept(what, job.row.point, control)
+                                                     : campaign_.door.ask(what, campaign_.question, control);
+    job.is_ended = outcome.ending != run::Ending::interrupted;
+    job.row.status = run::name_of(outcome.ending);
+    job.row.reason = outcome.reason;
+    job.row.tier = outcome.tier;
+    job.row.seconds = outcome.cost.wall_seconds;
+    job.row.numbers = numbers_of(outcome.answer);
+    return job;
+  }
+
+  run::Outcome kept(run::Case what, std::uint64_t point, const RunControl& control) const {
+    if (!campaign_.question.keys.empty())
+      what.overrides.push_back(run::sensitivity_override(campaign_.question.keys));
+    run::Keep keep;
+    keep.folder = folder_ / "points" / fmt::format("{}", point);
+    run::Outcome outcome = campaign_.door.compute(what, keep, control);
+    if (outcome.ending == run::Ending::done)
+      outcome.answer = run::answer_of(*outcome.stored, campaign_.question);
+    return outcome;
+  }
+
+  void keep(const Job& job) {
+    if (!job.is_ended) return;
+    table_.insert(job.row);
+    ++progress_.ended;
+    if (job.row.status != run::name_of(run::Ending::done)) ++progress_.failed;
+    progress_.last_result = job.row.seconds;
+    control_.report(progress_);
+  }
+
+  const Campaign& campaign_;
+  const std::filesystem::path& folder_;
+  Table& table_;
+  const SweepControl& control_;
+  const std::vector<std::uint64_t> has_row_;  ///< ascending
+  std::size_t done_before_ = 0;               ///< of them, that have been passed over
+  std::uint64_t next_ = 0;
+  std::atomic<bool> interrupted_ = false;
+  SweepProgress progress_;
+};
+
+}  // namespace
+
+bool execute(const Campaign& campaign, const std::filesystem::path& folder, Table& table,
+             const SweepControl& control) {
+  return Execution(campaign, folder, table, control).run();
+}
+
+}  // namespace tunica::sweep
