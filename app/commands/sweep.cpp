@@ -77,6 +77,9 @@ int tell_end(const sweep::SweepSummary& summary, const fs::path& folder, bool qu
 }  // namespace
 
 int sweep_command(const SweepArguments& arguments, const Program& program) {
+  // Of the processes of an MPI job one sweeps. It does not go over to the program of the 3D tier: points of
+  // that tier are processes of their own.
+  program.before_computing({});
   if (!arguments.merge.empty()) {
     if (!arguments.scene.empty() || arguments.out.empty())
       throw InvalidInput("sweep --merge: name the folders of the shards and --out, and nothing else");
@@ -85,8 +88,9 @@ int sweep_command(const SweepArguments& arguments, const Program& program) {
         arguments.out, arguments.quiet);
   }
   if (arguments.scene.empty()) throw InvalidInput("sweep: name a scene (see tunica sweep --help)");
-  if (arguments.jobs < 0 || arguments.ranks < 1)
-    throw InvalidInput("sweep: --jobs and --ranks are numbers of 1 or more");
+  constexpr int most = 1024;
+  if (arguments.jobs < 0 || arguments.jobs > most || arguments.ranks < 1 || arguments.ranks > most)
+    throw InvalidInput(fmt::format("sweep: --jobs and --ranks are numbers from 1 to {}", most));
   const auto points = points_of(arguments);
   run::DoorOptions options;
   options.program = fs::read_symlink("/proc/self/exe").parent_path() / "tunica";

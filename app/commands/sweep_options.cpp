@@ -35,7 +35,8 @@ CLI::App* add_sweep_command(CLI::App& app, SweepArguments& arguments) {
       ->take_all()
       ->allow_extra_args(false);
   option("--sample", arguments.sample, "Draw points: sobol:N, lhs:N or random:N", "DESIGN");
-  option("--seed", arguments.seed, "Of the sample (default 0; sobol is shifted at random by any other)", "S");
+  option("--seed", arguments.seed, "Of the sample (default 0; sobol is shifted at random by any other)", "S")
+      ->check(CLI::NonNegativeNumber);
   option("--points", arguments.points, "CSV file with a header of keys, units in brackets optional", "FILE");
   option("--tier", arguments.tier, "Model to compute with, as in tunica run", "TIER");
   option("--set", arguments.overrides, "Override a key of the scene for all points; may be repeated",

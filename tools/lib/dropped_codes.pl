@@ -6,7 +6,7 @@
 
 my $library = qr/(?:MPI_|CVode|N_V|SUN(?:Lin|Mat)|gsl_|klu_|ut_|cv_|(?:Petsc|Mat|Vec|KSP|PC|IS)(?=[A-Z]))\w+/;
 my $system = qr/(?:std)?::(?:fclose|fwrite|fsync|ftruncate|rename|write)/;
-my $cannot_fail = qr/(?:CVodeFree|N_VDestroy\w*|SUNMatDestroy|gsl_\w+_free|gsl_set_error_handler_off|
+my $cannot_fail = qr/(?:CVodeFree|N_VDestroy\w*|SUNMatDestroy|gsl_\w+_free|gsl_qrng_init|gsl_set_error_handler_off|
                         klu_defaults|klu_free_\w+|ut_free\w*|cv_free)\b/x;
 my $checks_itself = qr/(?:PetscCall|PetscSession)\b/;
 

@@ -2,7 +2,9 @@
 #include "verification/sweep/axis.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <set>
@@ -65,17 +67,36 @@ class AxisReader {
 
   double number(const std::string& text) const {
     double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const char* const begin = text.data() + (text.starts_with('+') ? 1 : 0);
+    const auto [end, error] = std::from_chars(begin, text.data() + text.size(), value);
     if (error == std::errc{} && end == text.data() + text.size() && std::isfinite(value)) return value;
     return convert_quantity(text, axis_.unit, axis_.key);
   }
+
+  /// The value as an override writes it. What no scene takes at this key is refused here, not point by point.
+  std::string checked(double value) const {
+    if (parameter().kind == scene::Kind::integer && value != std::floor(value))
+      refuse(fmt::format("{} takes whole numbers, not {}", axis_.key, value_text(value)));
+    return value_text(value);
+  }
+  std::string checked(const std::string& word) const {
+    const auto& choices = parameter().choices;
+    if (parameter().kind == scene::Kind::choice &&
+        std::find(choices.begin(), choices.end(), word) == choices.end())
+      refuse(fmt::format("{} is none of {}{}", scene::in_quotes(word), fmt::join(choices, ", "),
+                         scene::did_you_mean(scene::nearest(word, choices))));
+    if (parameter().kind == scene::Kind::flag && word != "true" && word != "false")
+      refuse(fmt::format("{} is neither true nor false", scene::in_quotes(word)));
+    return word;
+  }
+  const scene::Parameter& parameter() const { return *scene::find_parameter(axis_.key); }
 
   void list() {
     std::set<std::string> seen;
     for (const std::string& part : split(rest_, ',')) {
       const std::string value = trimmed(part);
       if (value.empty()) refuse("the list has an empty value");
-      axis_.values.push_back(axis_.is_number() ? value_text(number(value)) : value);
+      axis_.values.push_back(axis_.is_number() ? checked(number(value)) : checked(value));
       if (!seen.insert(axis_.values.back()).second) refuse(fmt::format("{} is there twice", value));
     }
   }
@@ -111,7 +132,7 @@ class AxisReader {
                            : k == count - 1 ? high
                            : is_log         ? low * std::pow(high / low, share)
                                             : std::lerp(low, high, share);
-      axis_.values.push_back(value_text(value));
+      axis_.values.push_back(checked(value));
     }
   }
 

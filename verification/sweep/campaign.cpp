@@ -55,15 +55,16 @@ void check_bounds(const Json& parameter) {
                            (std::isfinite(bounds.upper) ? 1 - marginal->probability(bounds.upper) : 0);
     if (outside > negligible)
       throw InvalidInput(fmt::format(
-          "--vary {}: {} leaves the range of the key ({}) with a probability of {:.2g} %; take a narrower one, "
-          "or a lognormal, uniform or triangular distribution within it",
+          "--vary {}: {} leaves the range of the key ({}) with a probability of {:.2g} %; take a narrower "
+          "one, or a lognormal, uniform or triangular distribution within it",
           key, marginal->text(), bounds.text(), 100 * outside));
   } else if (parameter.contains("values") && parameter.at("unit") != "") {
     for (const std::string value : parameter.at("values")) refuse_value(std::stod(value));
   }
 }
 
-/// Refuses keys without effect on the scene. A point in a corner may be no scene; the first that is one tells.
+/// Refuses keys without effect on the scene. A point in a corner may be no scene; the first that is one
+/// tells.
 void check_keys(const Campaign& campaign) {
   std::optional<InvalidInput> refusal;
   constexpr std::uint64_t enough = 64;
@@ -113,21 +114,40 @@ Json describe(const Campaign& campaign) {
 struct Part {
   const char *entry, *name;
 };
-constexpr Part identity[] = {{"version", "the program's version"},
-                             {"commit", "the program's commit"},
+constexpr Part identity[] = {{"version", "the version"},
+                             {"commit", "the commit of the program"},
                              {"scene_toml", "the scene"},
                              {"input_files", "the contents of a file that the scene names"},
                              {"tier", "the tier"},
                              {"design", "what varies"},
                              {"points", "the number of points"},
-                             {"quantities", "the quantities"},
-                             {"gradients", "the gradients"}};
+                             {"quantities", "the list of quantities"},
+                             {"gradients", "the list of keys for gradients"}};
 
-/// "the scene"; empty when both are the same sweep.
+/// "the number of points was 10 and is 20"; empty when both are the same sweep. What a line has no room for
+/// is only named.
 std::string difference(const Json& one, const Json& other) {
-  for (const Part& part : identity)
-    if (one.value(part.entry, Json()) != other.value(part.entry, Json())) return part.name;
+  for (const Part& part : identity) {
+    const Json before = one.value(part.entry, Json()), now = other.value(part.entry, Json());
+    if (before == now) continue;
+    constexpr std::size_t room = 60;
+    const std::string was = before.dump(), is = now.dump();
+    if (was.size() > room || is.size() > room) return std::string(part.name) + " differs";
+    const auto plain = [](const Json& value) {
+      return value.is_string() ? value.get<std::string>() : value.dump();
+    };
+    return fmt::format("{} was {} and is {}", part.name, plain(before), plain(now));
+  }
   return {};
+}
+
+/// The same for the sweep that is to go on: of its scene, the key that has changed.
+std::string difference(const Json& kept, const Json& self, const Scene& scene) {
+  if (kept.value("scene_toml", Json()) != self.at("scene_toml") ||
+      kept.value("input_files", Json()) != self.at("input_files"))
+    return changed_input(scene, self.at("input_files"), kept.value("scene_toml", std::string()),
+                         kept.value("input_files", Json()));
+  return difference(kept, self);
 }
 
 Shard shard_in(const Json& campaign) {
@@ -138,12 +158,11 @@ std::uint64_t points_of(const Shard& shard, std::uint64_t count) {
   return count / shard.count + (shard.index - 1 < count % shard.count ? 1 : 0);
 }
 
-void write_campaign(Json all, const Shard& shard, const Table& table, const fs::path& folder) {
+void write_campaign(Json all, const Shard& shard, const SweepSummary& summary, const fs::path& folder) {
   all["shard"] = {{"index", shard.index}, {"count", shard.count}};
-  const auto count = [&](run::Ending ending) { return table.count(run::name_of(ending)); };
-  all["counts"] = {{"done", count(run::Ending::done)},
-                   {"gave-up", count(run::Ending::gave_up)},
-                   {"refused", count(run::Ending::refused)}};
+  all["counts"] = {{run::name_of(run::Ending::done), summary.done},
+                   {run::name_of(run::Ending::gave_up), summary.gave_up},
+                   {run::name_of(run::Ending::refused), summary.refused}};
   write_whole(folder / campaign_file, all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
@@ -156,7 +175,8 @@ void remove_sweep(const fs::path& folder) {
 }
 
 SweepSummary summary_of(const Table& table) {
-  return {0, table.count("done"), table.count("gave-up"), table.count("refused"), false};
+  const auto count = [&](run::Ending ending) { return table.count(run::name_of(ending)); };
+  return {0, count(run::Ending::done), count(run::Ending::gave_up), count(run::Ending::refused), false};
 }
 
 }  // namespace
@@ -213,11 +233,11 @@ SweepSummary run_sweep(const Campaign& campaign, const fs::path& folder, const S
   const bool is_there = holds_sweep(folder);
   if (is_there && control.resume) {
     const Json kept = read_campaign(folder);
-    if (const std::string other = difference(kept, self); !other.empty())
-      throw InvalidInput(
-          fmt::format("{}: holds another sweep: {} is not the same; leave out --resume and name "
-                      "another folder with --out, or write --replace to discard it",
-                      folder.string(), other));
+    if (const std::string other = difference(kept, self, campaign.door.source().scene()); !other.empty())
+      throw InvalidInput(fmt::format(
+          "{}: holds another sweep: {}; leave out --resume and name another folder with --out, or "
+          "write --replace to discard it",
+          folder.string(), other));
     if (shard_in(kept).text() != campaign.shard.text())
       throw InvalidInput(fmt::format("{}: holds shard {}, not {}; name another folder with --out",
                                      folder.string(), shard_in(kept).text(), campaign.shard.text()));
@@ -229,14 +249,17 @@ SweepSummary run_sweep(const Campaign& campaign, const fs::path& folder, const S
   make_result_folder(folder);
   const FolderLock lock(folder);
   const bool goes_on = is_there && control.resume && fs::exists(folder / database_file);
-  if (!goes_on) remove_sweep(folder);
+  if (!goes_on) {
+    remove_sweep(folder);
+    // Before the table, so that whatever a kill leaves behind says what it is of.
+    write_campaign(self, campaign.shard, {}, folder);
+  }
   Table table(folder / database_file, goes_on ? Table::Mode::open : Table::Mode::create,
               campaign.points.keys(), number_columns(campaign.question));
-  write_campaign(self, campaign.shard, table, folder);
   const bool interrupted = execute(campaign, folder, table, control);
   write_csv(table, folder / table_file, campaign.timings);
-  write_campaign(self, campaign.shard, table, folder);
   SweepSummary summary = summary_of(table);
+  write_campaign(self, campaign.shard, summary, folder);
   summary.count = points_of(campaign.shard, campaign.points.count());
   summary.interrupted = interrupted;
   return summary;
@@ -249,9 +272,12 @@ SweepSummary merge(const std::vector<fs::path>& folders, const fs::path& out, bo
   std::vector<fs::path> by_index(count);
   for (const fs::path& folder : folders) {
     const Json campaign = read_campaign(folder);
+    std::error_code not_there;
+    if (fs::equivalent(folder, out, not_there))
+      throw InvalidInput(fmt::format("{}: is a shard itself; name another folder with --out", out.string()));
     if (const std::string other = difference(first, campaign); !other.empty())
-      throw InvalidInput(fmt::format("{}: a part of another sweep than {}: {} is not the same",
-                                     folder.string(), folders.front().string(), other));
+      throw InvalidInput(fmt::format("{}: a part of another sweep than {}: {}", folder.string(),
+                                     folders.front().string(), other));
     const Shard shard = shard_in(campaign);
     if (shard.count != count)
       throw InvalidInput(fmt::format("{}: is shard {}, and {} is {}: parts of different numbers do not fit",
@@ -287,10 +313,9 @@ SweepSummary merge(const std::vector<fs::path>& folders, const fs::path& out, bo
     keys.push_back({parameter.at("key"), parameter.at("unit")});
   Table table(out / database_file, Table::Mode::create, keys, number_columns(question));
   for (const fs::path& folder : by_index) table.take(folder / database_file);
-  Json all = first;
   write_csv(table, out / table_file, first.at("timings"));
-  write_campaign(std::move(all), {}, table, out);
   SweepSummary summary = summary_of(table);
+  write_campaign(first, {}, summary, out);
   summary.count = first.at("points");
   return summary;
 }

@@ -2,6 +2,7 @@
 #include "verification/sweep/execute.hpp"
 
 #include <fmt/format.h>
+#include <tbb/global_control.h>
 #include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
 
@@ -37,6 +38,9 @@ class Execution {
   bool run() {
     // Few more than there are threads: a row that waits for its turn is memory.
     const auto tokens = static_cast<std::size_t>(2 * campaign_.jobs);
+    // More jobs than cores are of use where a point waits for processes.
+    const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
+                                      static_cast<std::size_t>(campaign_.jobs));
     tbb::task_arena arena(campaign_.jobs);
     control_.report(progress_);
     arena.execute([&] {

@@ -138,7 +138,7 @@ class List final : public Points {
         if (unit.empty())
           throw InvalidInput(fmt::format("{}: {} holds no numbers and has no unit", file.string(), key));
         factor = unit_factor(given, unit, fmt::format("{}: {}", file.string(), head),
-                             fmt::format("; its unit is {}", unit));
+                             fmt::format("its unit is {}", unit));
       }
       keys_.push_back({key, unit});
       factors.push_back(factor);

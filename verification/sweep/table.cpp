@@ -69,7 +69,9 @@ struct Table::Database {
         throw InvalidInput(fmt::format(
             "{}: not the table of a sweep, or damaged ({}); begin anew with --replace", path.string(), why));
       default:
-        throw OutputFailure(fmt::format("{}: {}", path.string(), why));
+        throw OutputFailure(
+            fmt::format("{}: {}; rows before are kept: make room or mend the folder, and go on with --resume",
+                        path.string(), why));
     }
   }
   void check(int code) const {
@@ -133,8 +135,13 @@ Table::Table(const std::filesystem::path& file, Mode mode, std::vector<Varied> k
   database_ = std::make_unique<Database>(file);
   const auto fail = [this](int code) { database_->fail(code); };
   if (mode == Mode::open) {
+    Query content(database_->handle, "SELECT count(*) FROM sqlite_master", fail);
+    // A sweep that was killed at its very beginning has left an empty file.
+    const bool is_empty = content.next() && content.integer(0) == 0;
     Query id(database_->handle, "PRAGMA application_id", fail);
-    if (!id.next() || id.integer(0) != application)
+    if (is_empty)
+      mode = Mode::create;
+    else if (!id.next() || id.integer(0) != application)
       throw InvalidInput(fmt::format("{}: not the table of a sweep", file.string()));
   }
   // Rows reach the system when they are inserted, which a killed process has no part in any more; the disk
@@ -148,8 +155,8 @@ Table::Table(const std::filesystem::path& file, Mode mode, std::vector<Varied> k
     columns.push_back(quoted(key_head(key)) + (key.unit.empty() ? " TEXT NOT NULL" : " REAL NOT NULL"));
   for (const NumberColumn& column : numbers_) columns.push_back(quoted(column.head()) + " REAL");
   if (mode == Mode::create)
-    database_->run(fmt::format("PRAGMA application_id = {}; CREATE TABLE sweep ({});", application,
-                               fmt::join(columns, ", ")));
+    database_->run(fmt::format("BEGIN; PRAGMA application_id = {}; CREATE TABLE sweep ({}); COMMIT;",
+                               application, fmt::join(columns, ", ")));
   const std::string insertion = fmt::format("INSERT INTO sweep VALUES ({})", fmt::join(marks, ", "));
   if (sqlite3_prepare_v2(database_->handle, insertion.c_str(), -1, &database_->insertion, nullptr) !=
       SQLITE_OK)

@@ -95,7 +95,7 @@ Design::Design(Sampling sampling, std::uint64_t count, int dimension, std::uint6
     throw InvalidInput(
         fmt::format("Sobol's sequence has at most {} coordinates, not {}; take lhs or random, or vary less",
                     most, dimension));
-  if (count > (std::uint64_t{1} << most_bits))
+  if (count >= (std::uint64_t{1} << most_bits))
     throw InvalidInput(fmt::format("Sobol's sequence has at most {} points, not {}",
                                    (std::uint64_t{1} << most_bits) - 1, count));
   sequence_ = std::make_unique<Sequence>(dimension);

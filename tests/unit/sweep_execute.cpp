@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The engine of sweeps with a tier that answers at once: what a kill costs, what memory and time a point takes
+// beside its computation, and what becomes of folders in odd states.
+#include <gtest/gtest.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <csignal>
+#include <fstream>
+#include <iostream>
+#include <random>
+#include <thread>
+
+#include "core/error.hpp"
+#include "tests/support/temporary_folder.hpp"
+#include "verification/sweep/campaign.hpp"
+
+using namespace tunica;
+using namespace tunica::sweep;
+using test_support::read_text;
+using test_support::TemporaryFolder;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Answers every quantity with the scene's outlet resistance, and counts.
+class PromptTier final : public Tier {
+ public:
+  explicit PromptTier(std::atomic<long>* answered = nullptr) : answered_(answered) {}
+  std::string_view name() const override { return "prompt"; }
+  std::string refusal(const Scene&) const override { return {}; }
+  bool suits(const Scene&) const override { return true; }
+  std::unique_ptr<TierRun> prepare(const Scene&) const override { throw std::logic_error("answers only"); }
+  std::optional<run::Answer> answer(const Scene& scene, const run::Question& question,
+                                    const RunControl&) const override {
+    if (answered_) ++*answered_;
+    return run::Answer{std::vector<double>(question.quantities.size(), scene.number("outlet.resistance")),
+                       {}};
+  }
+
+ private:
+  std::atomic<long>* answered_;
+};
+
+class SweepExecution : public testing::Test {
+ protected:
+  SweepSummary sweep(const std::string& name, std::uint64_t count, bool resume = false,
+                     std::atomic<long>* answered = nullptr) const {
+    TierList tiers;
+    tiers.push_back(std::make_unique<PromptTier>(answered));
+    const run::Door door(tiers, run::SceneSource(std::string(TUNICA_SOURCE_DIR) + "/scenes/cylinder.toml"));
+    const auto points =
+        sample_points({parse_axis("outlet.resistance=1e6:2e6"), parse_axis("tether.stiffness=1e6:3e7")},
+                      uncertainty::Sampling::sobol, count, 0);
+    run::Question question;
+    question.quantities = {run::parse_quantity("pressure.max"), run::parse_quantity("von_mises.max")};
+    SweepControl control;
+    control.resume = resume;
+    return run_sweep({door, "prompt", *points, question, {}, jobs}, path(name), control);
+  }
+  fs::path path(const std::string& name) const { return folder_.path() / name; }
+  std::string csv(const std::string& name) const { return read_text(path(name) / table_file); }
+  std::size_t rows_in(const std::string& name) const {
+    return Table(path(name) / database_file, Table::Mode::open,
+                 {{"outlet.resistance", "dyn s/cm5"}, {"tether.stiffness", "dyn/cm3"}},
+                 {{"pressure.max", "dyn/cm2"}, {"von_mises.max", "dyn/cm2"}})
+        .points()
+        .size();
+  }
+  static constexpr int jobs = 2;
+
+ private:
+  TemporaryFolder folder_;
+};
+
+double peak_mebibytes() {
+  rusage usage{};
+  EXPECT_EQ(::getrusage(RUSAGE_SELF, &usage), 0);
+  return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+std::string refusal_of(const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const InvalidInput& error) {
+    return error.what();
+  }
+  return {};
+}
+
+}  // namespace
+
+TEST_F(SweepExecution, AKillCostsThePointsInFlightAndNoMore) {
+  constexpr std::uint64_t count = 10'000;
+  // Counted in memory that outlives the process that is killed.
+  void* const shared =
+      ::mmap(nullptr, sizeof(std::atomic<long>), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  ASSERT_NE(shared, MAP_FAILED);
+  auto* const answered = new (shared) std::atomic<long>(0);
+  const unsigned seed = std::random_device{}();
+  std::cout << "seed " << seed << '\n';
+  std::mt19937 engine(seed);
+  const long enough = std::uniform_int_distribution<long>(count / 10, count / 2)(engine);
+  const pid_t child = ::fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    sweep("killed", count, false, answered);
+    ::_exit(0);
+  }
+  while (*answered < enough && ::waitpid(child, nullptr, WNOHANG) == 0)
+    std::this_thread::sleep_for(std::chrono::microseconds(100));
+  ASSERT_EQ(::kill(child, SIGKILL), 0);
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFSIGNALED(status)) << "it was over before it could be killed";
+  const long kept = static_cast<long>(rows_in("killed"));
+  EXPECT_LE(*answered - kept, 2 * jobs) << "seed " << seed;
+  EXPECT_LT(kept, static_cast<long>(count));
+
+  *answered = 0;
+  EXPECT_EQ(sweep("killed", count, true, answered).done, count);
+  EXPECT_EQ(*answered, static_cast<long>(count) - kept) << "what has a row is not computed again";
+  sweep("undisturbed", count);
+  EXPECT_TRUE(csv("killed") == csv("undisturbed"));
+  ASSERT_EQ(::munmap(shared, sizeof(std::atomic<long>)), 0);
+}
+
+// Reading a scene and everything else that the engine does for a point is what is measured here, on two threads.
+TEST_F(SweepExecution, MemoryDoesNotGrowWithThePoints) {
+  sweep("few", 2'000);
+  const double before = peak_mebibytes();
+  sweep("many", 20'000);
+  // 18,000 rows kept in memory would take 3 MiB at the very least, and SQLite's cache takes 2 when it fills.
+  EXPECT_LT(peak_mebibytes() - before, 2.9);
+}
+
+TEST_F(SweepExecution, GoesOnFromWhateverAKillAtTheBeginningLeaves) {
+  sweep("whole", 10);
+  const std::string whole = csv("whole");
+  const auto leave_only = [&](std::initializer_list<const char*> files) {
+    for (const auto& entry : fs::directory_iterator(path("whole")))
+      if (std::none_of(files.begin(), files.end(),
+                       [&](const char* f) { return entry.path().filename() == f; }))
+        fs::remove(entry.path());
+  };
+  // The campaign alone, and beside it a database that has nothing yet.
+  leave_only({campaign_file});
+  sweep("whole", 10, true);
+  EXPECT_EQ(csv("whole"), whole);
+  leave_only({campaign_file});
+  std::ofstream(path("whole") / database_file).close();
+  sweep("whole", 10, true);
+  EXPECT_EQ(csv("whole"), whole);
+  // A folder without anything: nothing to go on with is no reason not to begin.
+  sweep("new", 10, true);
+  EXPECT_EQ(csv("new"), whole);
+}
+
+TEST_F(SweepExecution, TellsDamageByName) {
+  sweep("damaged", 10);
+  const std::string before = read_text(path("damaged") / campaign_file);
+  std::ofstream(path("damaged") / database_file) << std::string(5000, 'x');
+  EXPECT_NE(refusal_of([&] { sweep("damaged", 10, true); }).find("not the table of a sweep"),
+            std::string::npos);
+  std::ofstream(path("damaged") / campaign_file) << before.substr(0, before.size() / 2);
+  EXPECT_NE(refusal_of([&] { sweep("damaged", 10, true); }).find("no sweep here"), std::string::npos);
+}
+
+TEST_F(SweepExecution, AResumedTableIsOfTheSameVersion) {
+  sweep("old", 10);
+  auto campaign = read_campaign(path("old"));
+  campaign["version"] = "0.0.9";
+  std::ofstream(path("old") / campaign_file) << campaign.dump();
+  EXPECT_NE(refusal_of([&] { sweep("old", 10, true); }).find("version was 0.0.9 and is "), std::string::npos)
+      << refusal_of([&] { sweep("old", 10, true); });
+}
+
+TEST_F(SweepExecution, AShardIsNoPlaceForTheWhole) {
+  sweep("a", 10);
+  const std::string before = csv("a");
+  EXPECT_NE(refusal_of([&] {
+              merge({path("a"), path("b")}, path("a"), true);
+            }).find("is a shard itself"),
+            std::string::npos);
+  EXPECT_EQ(csv("a"), before);
+}
