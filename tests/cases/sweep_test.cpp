@@ -3,6 +3,7 @@
 // repeated, or asked for what makes no sense.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <sqlite3.h>
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -146,6 +147,39 @@ TEST_F(Sweep, IsAShardByItselfInASlurmArray) {
   EXPECT_EQ(csv("merged"), csv("whole"));
 }
 
+TEST_F(Sweep, TheSlurmScriptRunsATaskAndGoesOn) {
+  ASSERT_EQ(sweep("whole", grid).code, 0);
+  const auto run_task = [&](const std::string& task) {
+    Texts all{std::string(TUNICA_SOURCE_DIR) + "/tools/sweep-array.sbatch", path("array")};
+    const Texts own = arguments("unused", grid);
+    // Without the command's name and with another folder.
+    for (std::size_t k = 1; k < own.size(); ++k)
+      if (own[k] == "--out")
+        ++k;
+      else
+        all.push_back(own[k]);
+    test_support::Program script(all, folder_.path(), [&] {
+      ::setenv("TUNICA", TUNICA_PROGRAM, 1);
+      ::setenv("SLURM_ARRAY_TASK_ID", task.c_str(), 1);
+      ::setenv("SLURM_ARRAY_TASK_COUNT", "2", 1);
+      ::setenv("SLURM_ARRAY_TASK_MIN", "1", 1);
+      ::setenv("SLURM_CPUS_PER_TASK", "2", 1);
+      // The first of the tasks of srun and any other compute alike.
+      ::setenv("SLURM_PROCID", "1", 1);
+      ::setenv("PMI_RANK", "1", 1);
+      ::setenv("PMI_SIZE", "2", 1);
+    });
+    const int code = script.wait();
+    EXPECT_EQ(code, 0) << script.errors();
+  };
+  for (const char* task : {"1", "2", "2"}) run_task(task);
+  ASSERT_EQ(test_support::tunica({"sweep", "--quiet", "--out", path("merged"), "--merge",
+                                  path("array/shard-1-of-2"), path("array/shard-2-of-2")})
+                .code,
+            0);
+  EXPECT_EQ(csv("merged"), csv("whole"));
+}
+
 TEST_F(Sweep, KilledItGoesOnToTheSameTable) {
   ASSERT_EQ(sweep("undisturbed", many).code, 0);
   {
@@ -281,8 +315,7 @@ TEST_F(Sweep, AFullDiskLosesNothing) {
   EXPECT_EQ(table("full").rows(), 400U);
 }
 
-TEST_F(Sweep, ALockedTableIsToldOf) {
-  // Another sweep is at work in the folder.
+TEST_F(Sweep, OneSweepIsAtWorkInAFolder) {
   Texts all{TUNICA_PROGRAM};
   test_support::Program program(joined(all, arguments("busy", many)), folder_.path());
   while (program.running() && !fs::exists(path("busy/sweep.db")))
@@ -290,6 +323,26 @@ TEST_F(Sweep, ALockedTableIsToldOf) {
   const Ended refused = sweep("busy", joined(many, {"--resume"}));
   EXPECT_EQ(refused.code, 2);
   EXPECT_TRUE(is_one_line(refused.errors)) << refused.errors;
+  EXPECT_NE(refused.errors.find("another run is at work"), std::string::npos) << refused.errors;
   program.send(SIGKILL);
   program.wait();
+}
+
+// Some other program, such as a viewer of databases, writes to the table and does not end.
+TEST_F(Sweep, ATableThatAnotherProgramLocksIsToldOf) {
+  ASSERT_EQ(sweep("locked", grid).code, 0);
+  const std::string before = csv("locked");
+  sqlite3* other = nullptr;
+  ASSERT_EQ(sqlite3_open(path("locked/sweep.db").c_str(), &other), SQLITE_OK);
+  ASSERT_EQ(sqlite3_exec(other, "DELETE FROM sweep WHERE point = 3", nullptr, nullptr, nullptr), SQLITE_OK);
+  ASSERT_EQ(sqlite3_exec(other, "BEGIN IMMEDIATE", nullptr, nullptr, nullptr), SQLITE_OK);
+  const Ended refused = sweep("locked", joined(grid, {"--resume"}));
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_TRUE(is_one_line(refused.errors)) << refused.errors;
+  EXPECT_NE(refused.errors.find("another program keeps the table locked"), std::string::npos)
+      << refused.errors;
+  ASSERT_EQ(sqlite3_exec(other, "ROLLBACK", nullptr, nullptr, nullptr), SQLITE_OK);
+  ASSERT_EQ(sqlite3_close(other), SQLITE_OK);
+  ASSERT_EQ(sweep("locked", joined(grid, {"--resume"})).code, 0);
+  EXPECT_EQ(csv("locked"), before);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The engine of sweeps with a tier that answers at once: what a kill costs, what memory and time a point takes
-// beside its computation, and what becomes of folders in odd states.
+// The engine of sweeps with a tier that answers at once: what a kill costs, that memory does not grow, and
+// what becomes of folders in odd states.
 #include <gtest/gtest.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
@@ -129,7 +129,6 @@ TEST_F(SweepExecution, AKillCostsThePointsInFlightAndNoMore) {
   ASSERT_EQ(::munmap(shared, sizeof(std::atomic<long>)), 0);
 }
 
-// Reading a scene and everything else that the engine does for a point is what is measured here, on two threads.
 TEST_F(SweepExecution, MemoryDoesNotGrowWithThePoints) {
   sweep("few", 2'000);
   const double before = peak_mebibytes();

@@ -163,6 +163,7 @@ void write_campaign(Json all, const Shard& shard, const SweepSummary& summary, c
   all["counts"] = {{run::name_of(run::Ending::done), summary.done},
                    {run::name_of(run::Ending::gave_up), summary.gave_up},
                    {run::name_of(run::Ending::refused), summary.refused}};
+  all["seconds"] = summary.seconds;
   write_whole(folder / campaign_file, all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
@@ -176,7 +177,12 @@ void remove_sweep(const fs::path& folder) {
 
 SweepSummary summary_of(const Table& table) {
   const auto count = [&](run::Ending ending) { return table.count(run::name_of(ending)); };
-  return {0, count(run::Ending::done), count(run::Ending::gave_up), count(run::Ending::refused), false};
+  return {0,
+          count(run::Ending::done),
+          count(run::Ending::gave_up),
+          count(run::Ending::refused),
+          table.seconds(),
+          false};
 }
 
 }  // namespace

@@ -56,6 +56,7 @@ struct SweepControl {
 
 struct SweepSummary {
   std::uint64_t count = 0, done = 0, gave_up = 0, refused = 0;
+  double seconds = 0;  ///< of all points with a row together
   bool interrupted = false;
 };
 

@@ -211,6 +211,13 @@ std::uint64_t Table::count(const std::string& status) const {
   return static_cast<std::uint64_t>(query.integer(0));
 }
 
+double Table::seconds() const {
+  Query query(database_->handle, "SELECT total(\"seconds[s]\") FROM sweep",
+              [this](int code) { database_->fail(code); });
+  query.next();
+  return query.number(0);
+}
+
 void Table::each(const std::function<void(const Row&)>& use) const {
   Query query(database_->handle, "SELECT * FROM sweep ORDER BY point",
               [this](int code) { database_->fail(code); });

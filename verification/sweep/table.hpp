@@ -33,6 +33,7 @@ class Table {
   /// Hands over all rows in the order of points.
   void each(const std::function<void(const Row&)>& use) const;
   std::uint64_t count(const std::string& status) const;
+  double seconds() const;  ///< of all rows together
   /// Adds the rows of another table of the same columns.
   void take(const std::filesystem::path& other);
 
