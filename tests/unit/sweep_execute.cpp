@@ -49,7 +49,7 @@ class PromptTier final : public Tier {
 class SweepExecution : public testing::Test {
  protected:
   SweepSummary sweep(const std::string& name, std::uint64_t count, bool resume = false,
-                     std::atomic<long>* answered = nullptr) const {
+                     std::atomic<long>* answered = nullptr, Shard shard = {}) const {
     TierList tiers;
     tiers.push_back(std::make_unique<PromptTier>(answered));
     const run::Door door(tiers, run::SceneSource(std::string(TUNICA_SOURCE_DIR) + "/scenes/cylinder.toml"));
@@ -60,7 +60,7 @@ class SweepExecution : public testing::Test {
     question.quantities = {run::parse_quantity("pressure.max"), run::parse_quantity("von_mises.max")};
     SweepControl control;
     control.resume = resume;
-    return run_sweep({door, "prompt", *points, question, {}, jobs}, path(name), control);
+    return run_sweep({door, "prompt", *points, question, shard, jobs}, path(name), control);
   }
   fs::path path(const std::string& name) const { return folder_.path() / name; }
   std::string csv(const std::string& name) const { return read_text(path(name) / table_file); }
@@ -186,4 +186,36 @@ TEST_F(SweepExecution, AShardIsNoPlaceForTheWhole) {
             }).find("is a shard itself"),
             std::string::npos);
   EXPECT_EQ(csv("a"), before);
+}
+
+TEST_F(SweepExecution, WhatAShardHasIsInItsTable) {
+  sweep("part1", 11, false, nullptr, {1, 2});
+  sweep("part2", 11, false, nullptr, {2, 2});
+  sweep("whole", 11);
+  // The campaign of a sweep that was killed at its end counts fewer points than there are rows.
+  auto campaign = read_campaign(path("part1"));
+  campaign["counts"]["done"] = 0;
+  std::ofstream(path("part1") / campaign_file) << campaign.dump();
+  EXPECT_EQ(merge({path("part1"), path("part2")}, path("merged"), false).done, 11U);
+  EXPECT_EQ(csv("merged"), csv("whole"));
+  fs::remove(path("part2") / database_file);
+  EXPECT_THROW(merge({path("part1"), path("part2")}, path("again"), false), OutputFailure);
+  EXPECT_FALSE(fs::exists(path("part2") / database_file)) << "a shard is not made by looking at it";
+  EXPECT_FALSE(fs::exists(path("again")));
+}
+
+TEST_F(SweepExecution, RefusedPointsAtTheBeginningDoNotRefuseTheSweep) {
+  TierList tiers;
+  tiers.push_back(std::make_unique<PromptTier>());
+  const run::Door door(tiers, run::SceneSource(std::string(TUNICA_SOURCE_DIR) + "/scenes/cylinder.toml"));
+  std::string file = "outlet.resistance\n";
+  for (int k = 0; k < 100; ++k) file += "-1\n";
+  for (int k = 0; k < 100; ++k) file += "1e6\n";
+  fs::create_directory(path("list"));
+  std::ofstream(path("list") / "points.csv") << file;
+  const auto points = list_points(path("list") / "points.csv");
+  const SweepSummary summary = run_sweep(
+      {door, "prompt", *points, {{run::parse_quantity("pressure.max")}, {}}, {}, jobs}, path("list"), {});
+  EXPECT_EQ(summary.refused, 100U);
+  EXPECT_EQ(summary.done, 100U);
 }

@@ -64,11 +64,14 @@ void check_bounds(const Json& parameter) {
 }
 
 /// Refuses keys without effect on the scene. A point in a corner may be no scene; the first that is one
-/// tells.
+/// tells. Points are tried from all over the design: neighbours on a grid share what makes them none.
 void check_keys(const Campaign& campaign) {
   std::optional<InvalidInput> refusal;
-  constexpr std::uint64_t enough = 64;
-  for (std::uint64_t point = 0; point < std::min(enough, campaign.points.count()); ++point) {
+  // Of long designs the first points will do, so that a sequence is not gone through before the sweep begins.
+  constexpr std::uint64_t enough = 64, far = 1'000'000;
+  const std::uint64_t end = std::min(far, campaign.points.count()),
+                      step = std::max<std::uint64_t>(1, end / enough);
+  for (std::uint64_t point = 0; point < end; point += step) {
     const auto values = overrides(campaign.points, campaign.points.values(point));
     try {
       const Scene scene = campaign.door.source().with(values);
@@ -154,10 +157,6 @@ Shard shard_in(const Json& campaign) {
   return {campaign.at("shard").at("index"), campaign.at("shard").at("count")};
 }
 
-std::uint64_t points_of(const Shard& shard, std::uint64_t count) {
-  return count / shard.count + (shard.index - 1 < count % shard.count ? 1 : 0);
-}
-
 void write_campaign(Json all, const Shard& shard, const SweepSummary& summary, const fs::path& folder) {
   all["shard"] = {{"index", shard.index}, {"count", shard.count}};
   all["counts"] = {{run::name_of(run::Ending::done), summary.done},
@@ -223,6 +222,10 @@ Json read_campaign(const fs::path& folder) {
   if (!all.is_object() || all.value("program", Json()) != "tunica sweep")
     throw InvalidInput(
         fmt::format("{}: no sweep here ({} is missing or another one's)", folder.string(), campaign_file));
+  for (const char* entry : {"shard", "design", "points", "quantities", "gradients", "timings"})
+    if (!all.contains(entry))
+      throw InvalidInput(
+          fmt::format("{}: {} has no {}; begin anew with --replace", folder.string(), campaign_file, entry));
   return all;
 }
 
@@ -266,7 +269,7 @@ SweepSummary run_sweep(const Campaign& campaign, const fs::path& folder, const S
   write_csv(table, folder / table_file, campaign.timings);
   SweepSummary summary = summary_of(table);
   write_campaign(self, campaign.shard, summary, folder);
-  summary.count = points_of(campaign.shard, campaign.points.count());
+  summary.count = campaign.shard.share_of(campaign.points.count());
   summary.interrupted = interrupted;
   return summary;
 }
@@ -274,6 +277,16 @@ SweepSummary run_sweep(const Campaign& campaign, const fs::path& folder, const S
 SweepSummary merge(const std::vector<fs::path>& folders, const fs::path& out, bool replace) {
   if (folders.size() < 2) throw InvalidInput("--merge: name at least two folders of shards");
   const Json first = read_campaign(folders.front());
+  run::Question question;
+  for (const std::string name : first.at("quantities"))
+    question.quantities.push_back(run::parse_quantity(name));
+  question.keys = first.at("gradients").get<std::vector<std::string>>();
+  std::vector<Varied> keys;
+  for (const Json& parameter : first.at("design").at("parameters"))
+    keys.push_back({parameter.at("key"), parameter.at("unit")});
+  const auto table_of = [&](const fs::path& folder, Table::Mode mode) {
+    return Table(folder / database_file, mode, keys, number_columns(question));
+  };
   const std::uint64_t count = shard_in(first).count;
   std::vector<fs::path> by_index(count);
   for (const fs::path& folder : folders) {
@@ -294,10 +307,8 @@ SweepSummary merge(const std::vector<fs::path>& folders, const fs::path& out, bo
       throw InvalidInput(
           fmt::format("{} and {}: are both shard {}", place.string(), folder.string(), shard.text()));
     place = folder;
-    const auto has = campaign.at("counts");
-    const std::uint64_t ended = has.at("done").get<std::uint64_t>() + has.at("gave-up").get<std::uint64_t>() +
-                                has.at("refused").get<std::uint64_t>();
-    const std::uint64_t needed = points_of(shard, campaign.at("points").get<std::uint64_t>());
+    const Table part = table_of(folder, Table::Mode::read);
+    const std::uint64_t ended = part.points().size(), needed = shard.share_of(first.at("points"));
     if (ended != needed)
       throw InvalidInput(fmt::format("{}: shard {} has {} of {} points; complete it with --resume",
                                      folder.string(), shard.text(), ended, needed));
@@ -310,15 +321,8 @@ SweepSummary merge(const std::vector<fs::path>& folders, const fs::path& out, bo
   make_result_folder(out);
   const FolderLock lock(out);
   remove_sweep(out);
-  run::Question question;
-  for (const std::string name : first.at("quantities"))
-    question.quantities.push_back(run::parse_quantity(name));
-  question.keys = first.at("gradients").get<std::vector<std::string>>();
-  std::vector<Varied> keys;
-  for (const Json& parameter : first.at("design").at("parameters"))
-    keys.push_back({parameter.at("key"), parameter.at("unit")});
-  Table table(out / database_file, Table::Mode::create, keys, number_columns(question));
-  for (const fs::path& folder : by_index) table.take(folder / database_file);
+  Table table = table_of(out, Table::Mode::create);
+  for (const fs::path& folder : by_index) table.take(table_of(folder, Table::Mode::read));
   write_csv(table, out / table_file, first.at("timings"));
   SweepSummary summary = summary_of(table);
   write_campaign(first, {}, summary, out);

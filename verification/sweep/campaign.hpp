@@ -21,6 +21,10 @@ struct Shard {
 
   bool is_whole() const { return count == 1; }
   bool has(std::uint64_t point) const { return point % count == index - 1; }
+  /// How many of so many points are its own.
+  std::uint64_t share_of(std::uint64_t points) const {
+    return points / count + (index - 1 < points % count ? 1 : 0);
+  }
   /// "2/5"
   std::string text() const;
 };

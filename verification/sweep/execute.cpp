@@ -28,8 +28,7 @@ class Execution {
   Execution(const Campaign& campaign, const std::filesystem::path& folder, Table& table,
             const SweepControl& control)
       : campaign_(campaign), folder_(folder), table_(table), control_(control), has_row_(table.points()) {
-    progress_.count = campaign.points.count() / campaign.shard.count +
-                      (campaign.shard.index - 1 < campaign.points.count() % campaign.shard.count ? 1 : 0);
+    progress_.count = campaign.shard.share_of(campaign.points.count());
     progress_.ended = has_row_.size();
     progress_.failed = has_row_.size() - table.count(run::name_of(run::Ending::done));
     next_ = campaign.shard.index - 1;

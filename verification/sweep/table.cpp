@@ -40,9 +40,10 @@ std::string cell(const std::string& text) {
 
 /// A connection, and the statement that inserts.
 struct Table::Database {
-  explicit Database(const std::filesystem::path& file) : path(file) {
+  Database(const std::filesystem::path& file, bool may_create) : path(file) {
     const int code = sqlite3_open_v2(
-        file.c_str(), &handle, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_FULLMUTEX, nullptr);
+        file.c_str(), &handle,
+        SQLITE_OPEN_READWRITE | SQLITE_OPEN_FULLMUTEX | (may_create ? SQLITE_OPEN_CREATE : 0), nullptr);
     if (code != SQLITE_OK) fail(code);
     // A reader that copies the table holds it for a moment.
     constexpr int patience = 10'000;  // ms
@@ -132,14 +133,13 @@ Table::Table(const std::filesystem::path& file, Mode mode, std::vector<Varied> k
     throw InvalidInput(fmt::format(
         "a table of {} columns; at most {} are possible: ask for fewer quantities with --quantity",
         fixed_columns.size() + keys_.size() + numbers_.size(), most_columns));
-  database_ = std::make_unique<Database>(file);
+  database_ = std::make_unique<Database>(file, mode != Mode::read);
   const auto fail = [this](int code) { database_->fail(code); };
-  if (mode == Mode::open) {
+  if (mode != Mode::create) {
     Query content(database_->handle, "SELECT count(*) FROM sqlite_master", fail);
-    // A sweep that was killed at its very beginning has left an empty file.
     const bool is_empty = content.next() && content.integer(0) == 0;
     Query id(database_->handle, "PRAGMA application_id", fail);
-    if (is_empty)
+    if (is_empty && mode == Mode::open)
       mode = Mode::create;
     else if (!id.next() || id.integer(0) != application)
       throw InvalidInput(fmt::format("{}: not the table of a sweep", file.string()));
@@ -240,10 +240,9 @@ void Table::each(const std::function<void(const Row&)>& use) const {
   }
 }
 
-void Table::take(const std::filesystem::path& other) {
-  const Table from(other, Mode::open, keys_, numbers_);
+void Table::take(const Table& other) {
   database_->run("BEGIN");
-  from.each([this](const Row& row) { insert(row); });
+  other.each([this](const Row& row) { insert(row); });
   database_->run("COMMIT");
 }
 

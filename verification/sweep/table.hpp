@@ -17,7 +17,11 @@ namespace tunica::sweep {
 /// grows (write-ahead log).
 class Table {
  public:
-  enum class Mode { create, open };
+  enum class Mode {
+    create,
+    open,  ///< one that is there, or an empty file that a kill at the very beginning has left
+    read   ///< one that is there, to take from
+  };
   /// Throws InvalidInput when the file is none of these tables, has other columns, or another program keeps
   /// it locked; OutputFailure when it cannot be written.
   Table(const std::filesystem::path& file, Mode mode, std::vector<Varied> keys,
@@ -34,8 +38,8 @@ class Table {
   void each(const std::function<void(const Row&)>& use) const;
   std::uint64_t count(const std::string& status) const;
   double seconds() const;  ///< of all rows together
-  /// Adds the rows of another table of the same columns.
-  void take(const std::filesystem::path& other);
+  /// Adds the rows of another table of the same columns, all or none.
+  void take(const Table& other);
 
   const std::vector<Varied>& keys() const { return keys_; }
   const std::vector<NumberColumn>& numbers() const { return numbers_; }
