@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <filesystem>
 #include <thread>
@@ -345,4 +346,18 @@ TEST_F(Sweep, ATableThatAnotherProgramLocksIsToldOf) {
   ASSERT_EQ(sqlite3_close(other), SQLITE_OK);
   ASSERT_EQ(sweep("locked", joined(grid, {"--resume"})).code, 0);
   EXPECT_EQ(csv("locked"), before);
+}
+
+// The derivative at the middle of three points against the difference of the outer ones. What is left is of
+// second order in the step of 0.1 %, and the tolerance of the integration.
+TEST_F(Sweep, GradientsAreThoseOfTheTable) {
+  ASSERT_EQ(sweep("slope", {"--vary", "outlet.resistance=0.999e6:1.001e6:3", "--gradients"}).code, 0);
+  const auto found = table("slope");
+  for (const std::string quantity : {"pressure.max", "recruitment.P1.on"}) {
+    const auto& values = found.find(quantity)->values;
+    const auto* slope = found.find("d(" + quantity + ")/d(outlet.resistance)");
+    ASSERT_NE(slope, nullptr) << csv("slope");
+    const double difference = (values[2] - values[0]) / 2e3;
+    EXPECT_NEAR(slope->values[1], difference, 1e-3 * std::abs(difference)) << quantity;
+  }
 }

@@ -13,6 +13,7 @@
 #include "core/observables/build_info.hpp"
 #include "core/observables/folder_lock.hpp"
 #include "core/observables/inputs.hpp"
+#include "core/run/choose_tier.hpp"
 #include "core/scene/message.hpp"
 #include "core/scene/parameter.hpp"
 #include "verification/sweep/execute.hpp"
@@ -63,8 +64,9 @@ void check_bounds(const Json& parameter) {
   }
 }
 
-/// Refuses keys without effect on the scene. A point in a corner may be no scene; the first that is one
-/// tells. Points are tried from all over the design: neighbours on a grid share what makes them none.
+/// Refuses keys without effect on the scene, and what the tier cannot compute. A point in a corner may be no
+/// scene; the first that is one tells. Points are tried from all over the design: neighbours on a grid share
+/// what makes them none.
 void check_keys(const Campaign& campaign) {
   std::optional<InvalidInput> refusal;
   // Of long designs the first points will do, so that a sequence is not gone through before the sweep begins.
@@ -72,7 +74,8 @@ void check_keys(const Campaign& campaign) {
   const std::uint64_t end = std::min(far, campaign.points.count()),
                       step = std::max<std::uint64_t>(1, end / enough);
   for (std::uint64_t point = 0; point < end; point += step) {
-    const auto values = overrides(campaign.points, campaign.points.values(point));
+    auto values = overrides(campaign.points, campaign.points.values(point));
+    if (!campaign.question.keys.empty()) values.push_back(run::sensitivity_override(campaign.question.keys));
     try {
       const Scene scene = campaign.door.source().with(values);
       for (const Varied& varied : campaign.points.keys()) {
@@ -82,6 +85,8 @@ void check_keys(const Campaign& campaign) {
           if (remark.starts_with(varied.key + " is not used")) reason = remark;
         throw InvalidInput(fmt::format("--vary {}: {}", varied.key, reason));
       }
+      // Throws when the tier has no such scenes, or no derivatives by these keys.
+      run::choose_tier(campaign.door.tiers(), campaign.tier, scene);
       return;
     } catch (const InvalidInput& error) {
       if (std::string_view(error.what()).starts_with("--vary")) throw;
