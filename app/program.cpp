@@ -133,6 +133,9 @@ int tunica::run_program(int argc, char** argv, const Program& program) {
   SweepArguments sweep;
   auto* sweep_app = add_sweep_command(app, sweep);
 
+  CalibrateArguments calibrate;
+  auto* calibrate_app = add_calibrate_command(app, calibrate);
+
   SceneArguments scene;
   auto* scene_app = app.add_subcommand("scene", "Show a scene with every default, unit and meaning");
   scene_app->add_option("scene", scene.scene, "Scene file (TOML)")->type_name("SCENE");
@@ -161,7 +164,8 @@ int tunica::run_program(int argc, char** argv, const Program& program) {
     if (!known && argv[1][0] != '-') {
       return complain(
           program,
-          fmt::format("{} is not a command; there are: run, verify, sweep, scene, report (see tunica --help)",
+          fmt::format("{} is not a command; there are: run, verify, sweep, calibrate, scene, report (see "
+                      "tunica --help)",
                       argv[1]),
           bad_input);
     }
@@ -172,6 +176,7 @@ int tunica::run_program(int argc, char** argv, const Program& program) {
     if (*run_app) return after_output(program, run_command(run, program));
     if (*verify_app) return after_output(program, verify_command(verify, program));
     if (*sweep_app) return after_output(program, sweep_command(sweep, program));
+    if (*calibrate_app) return after_output(program, calibrate_command(calibrate, program));
     if (*scene_app) return after_output(program, scene_command(scene));
     return after_output(program, report_command(report));
   } catch (const InvalidInput& error) {

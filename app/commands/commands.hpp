@@ -57,6 +57,19 @@ int sweep_command(const SweepArguments& arguments, const Program& program);
 /// Declares the command and what it is given; the arguments have to outlive the parsing.
 CLI::App* add_sweep_command(CLI::App& app, SweepArguments& arguments);
 
+struct CalibrateArguments {
+  std::string scene;
+  std::string tier = "auto";
+  std::vector<std::string> overrides, free, targets;
+  int starts = 5;
+  std::uint64_t seed = 0;
+  int jobs = 0;     ///< 0: all cores
+  std::string out;  ///< empty: result_folder
+  bool quiet = false;
+};
+int calibrate_command(const CalibrateArguments& arguments, const Program& program);
+CLI::App* add_calibrate_command(CLI::App& app, CalibrateArguments& arguments);
+
 struct SceneArguments {
   std::string scene;
   std::vector<std::string> overrides;

@@ -38,13 +38,14 @@ std::string trimmed(std::string_view text) {
 
 class AxisReader {
  public:
-  explicit AxisReader(const std::string& text) : text_(text) {
+  AxisReader(const std::string& text, const std::string& option) : text_(text), option_(option) {
     const std::size_t equals = text.find('=');
     axis_.key = trimmed(text.substr(0, equals));
     if (equals == std::string::npos || axis_.key.empty())
-      throw InvalidInput(fmt::format("--vary {}: write KEY=LO:HI:N, KEY=A,B, or for a sample KEY=LO:HI",
-                                     scene::in_quotes(text)));
-    axis_.unit = unit_of(axis_.key, "--vary");
+      throw InvalidInput(
+          fmt::format("{} {}: write {}", option, scene::in_quotes(text),
+                      option == "--vary" ? "KEY=LO:HI:N, KEY=A,B, or for a sample KEY=LO:HI" : "KEY=LO:HI"));
+    axis_.unit = unit_of(axis_.key, option);
     rest_ = trimmed(text.substr(equals + 1));
   }
 
@@ -52,7 +53,8 @@ class AxisReader {
     if (rest_.find(',') != std::string::npos && rest_.find('(') == std::string::npos)
       list();
     else if (!axis_.is_number())
-      refuse(fmt::format("it holds no numbers; write two values or more, as in --vary {}=A,B", axis_.key));
+      refuse(
+          fmt::format("it holds no numbers; write two values or more, as in {} {}=A,B", option_, axis_.key));
     else if (auto marginal = uncertainty::parse_marginal(rest_, axis_.key, axis_.unit))
       axis_.marginal = marginal;
     else
@@ -62,7 +64,7 @@ class AxisReader {
 
  private:
   [[noreturn]] void refuse(const std::string& why) const {
-    throw InvalidInput(fmt::format("--vary {}: {}", scene::in_quotes(text_), why));
+    throw InvalidInput(fmt::format("{} {}: {}", option_, scene::in_quotes(text_), why));
   }
 
   double number(const std::string& text) const {
@@ -137,6 +139,7 @@ class AxisReader {
   }
 
   const std::string& text_;
+  const std::string& option_;
   std::string rest_;
   Axis axis_;
 };
@@ -167,8 +170,8 @@ std::string unit_of(const std::string& key, const std::string& option) {
   }
 }
 
-Axis parse_axis(const std::string& text) {
-  return AxisReader(text).read();
+Axis parse_axis(const std::string& text, const std::string& option) {
+  return AxisReader(text, option).read();
 }
 
 }  // namespace tunica::sweep

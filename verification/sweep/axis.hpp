@@ -20,14 +20,14 @@ struct Axis {
   bool is_number() const { return !unit.empty(); }
 };
 
-/// Reads what --vary says:
+/// Reads what --vary, or another option of its kind, says:
 ///   KEY=LO:HI:N[:log]   N values from LO to HI, both included, equally spaced or, with log, in equal ratios
 ///   KEY=A,B,...         these values
 ///   KEY=LO:HI[:log]     for a sample: uniform between, or with log uniform in the logarithm
 ///   KEY=DISTRIBUTION    for a sample (uncertainty::parse_marginal)
 /// Numbers are in the key's unit or carry their own. Throws InvalidInput for a key that is not declared or
 /// takes no such values, and for ranges that are empty, reversed or of one point.
-Axis parse_axis(const std::string& text);
+Axis parse_axis(const std::string& text, const std::string& option = "--vary");
 
 /// The unit of a key's numbers ("1" for none), empty for keys that hold texts, choices or flags. Throws
 /// InvalidInput for keys that are not declared, naming the nearest, and for those that hold lists.
