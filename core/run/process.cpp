@@ -46,7 +46,8 @@ class Words {
     const ssize_t got =
         ::pread(descriptor_, text.data(), text.size(), size - static_cast<off_t>(text.size()));
     text.resize(got > 0 ? static_cast<std::size_t>(got) : 0);
-    while (!text.empty() && text.back() == '\n') text.pop_back();
+    // mpirun draws a rule below what it has to say.
+    text.resize(text.find_last_not_of("\n-= ") + 1);
     text.erase(0, text.rfind('\n') + 1);
     return text;
   }

@@ -13,7 +13,7 @@ namespace tunica::run {
 struct EndedProcess {
   int exit_code = -1;  ///< -1 when a signal ended it
   int signal = 0;
-  std::string complaint;  ///< the last line that it wrote to standard error
+  std::string complaint;  ///< the last line with words that it wrote to standard error
   double wall_seconds = 0;
   double cpu_seconds = 0;  ///< its own and its children's
   double mebibytes = 0;    ///< largest resident set

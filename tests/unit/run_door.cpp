@@ -140,6 +140,9 @@ TEST(RunProcess, TellsHowItEnded) {
   const auto ended = run::run_process({"sh", "-c", "echo first >&2; echo last words >&2; exit 3"}, never);
   EXPECT_EQ(ended.exit_code, 3);
   EXPECT_EQ(ended.complaint, "last words");
+  // As mpirun has it.
+  EXPECT_EQ(run::run_process({"sh", "-c", "printf -- '----\\nno slots\\n----\\n' >&2"}, never).complaint,
+            "no slots");
   EXPECT_EQ(run::run_process({"sh", "-c", "kill -9 $$"}, never).signal, SIGKILL);
   EXPECT_THROW(run::run_process({"/no/such/program"}, never), InvalidInput);
   const auto busy =
