@@ -136,6 +136,9 @@ int tunica::run_program(int argc, char** argv, const Program& program) {
   CalibrateArguments calibrate;
   auto* calibrate_app = add_calibrate_command(app, calibrate);
 
+  ServeArguments serve;
+  auto* serve_app = add_serve_command(app, serve);
+
   SceneArguments scene;
   auto* scene_app = app.add_subcommand("scene", "Show a scene with every default, unit and meaning");
   scene_app->add_option("scene", scene.scene, "Scene file (TOML)")->type_name("SCENE");
@@ -164,9 +167,10 @@ int tunica::run_program(int argc, char** argv, const Program& program) {
     if (!known && argv[1][0] != '-') {
       return complain(
           program,
-          fmt::format("{} is not a command; there are: run, verify, sweep, calibrate, scene, report (see "
-                      "tunica --help)",
-                      argv[1]),
+          fmt::format(
+              "{} is not a command; there are: run, verify, sweep, calibrate, serve, scene, report (see "
+              "tunica --help)",
+              argv[1]),
           bad_input);
     }
     return complain(program, fmt::format("{} (see tunica --help)", error.what()), bad_input);
@@ -177,6 +181,7 @@ int tunica::run_program(int argc, char** argv, const Program& program) {
     if (*verify_app) return after_output(program, verify_command(verify, program));
     if (*sweep_app) return after_output(program, sweep_command(sweep, program));
     if (*calibrate_app) return after_output(program, calibrate_command(calibrate, program));
+    if (*serve_app) return after_output(program, serve_command(serve, program));
     if (*scene_app) return after_output(program, scene_command(scene));
     return after_output(program, report_command(report));
   } catch (const InvalidInput& error) {

@@ -32,9 +32,9 @@ constexpr const char* calibrate_examples =
   tunica calibrate scenes/cylinder.toml --free outlet.resistance=5e5:2e6 --free tether.stiffness=1e6:1e8
       --target "pressure.max=130 mmHg" --target "pressure.min=75 mmHg"
       --target "radial_displacement.P1.change=25 % of geometry.radius +- 2 %"
-  tunica calibrate mine.toml --tier axisym --free "outlet.resistance=5e5:2e6" --target "pressure.mean=93+-3 mmHg"
+  tunica calibrate mine.toml --tier axisym --free outlet.resistance=5e5:2e6 --target "pressure.mean=93 mmHg"
 
-DIR has scene.toml (runs and gives the answer), calibration.csv, targets.csv, calibration.json and report.html.
+DIR has scene.toml (runs and gives the answer), calibration.csv, targets.csv, calibration.json, report.html.
 
 Exit codes: 0 done (also where targets conflict: the best compromise is kept, and what it misses is said),
 2 bad input (nothing was computed), 3 the search has not come to an end (what it has is kept), 130 interrupted

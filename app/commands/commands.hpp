@@ -70,6 +70,18 @@ struct CalibrateArguments {
 int calibrate_command(const CalibrateArguments& arguments, const Program& program);
 CLI::App* add_calibrate_command(CLI::App& app, CalibrateArguments& arguments);
 
+struct ServeArguments {
+  std::string scene;
+  std::string tier = "auto";
+  std::vector<std::string> inputs, outputs, overrides;
+  std::string host = "127.0.0.1";
+  int port = 4242;
+  int jobs = 0;  ///< 0: all cores
+  bool quiet = false;
+};
+int serve_command(const ServeArguments& arguments, const Program& program);
+CLI::App* add_serve_command(CLI::App& app, ServeArguments& arguments);
+
 struct SceneArguments {
   std::string scene;
   std::vector<std::string> overrides;

@@ -37,10 +37,10 @@ struct Target {
 /// does, and for keys that hold no number or whose bounds the scene refuses.
 FreeKey parse_free(const std::string& text, const run::SceneSource& source);
 
-/// Reads "QUANTITY=VALUE" or "QUANTITY=VALUE+-SD". VALUE: "130 mmHg", a plain number in the quantity's unit,
-/// or a share of a key, "25 % of geometry.radius". SD likewise, where a percentage is one of the value; of
-/// VALUE and SD a plain number has the other's unit. Throws InvalidInput for what is none of these, for shares
-/// of a key that is free or of another dimension, and for a value of 0 without a standard deviation.
+/// Reads "QUANTITY=VALUE" or "QUANTITY=VALUE+-SD". VALUE: "130 mmHg", a plain number in the quantity's
+/// unit, or a share of a key, "25 % of geometry.radius". SD likewise, where a percentage is one of the value;
+/// of VALUE and SD a plain number has the other's unit. Throws InvalidInput for what is none of these, for
+/// shares of a key that is free or of another dimension, and for a value of 0 without a standard deviation.
 Target parse_target(const std::string& text, const Scene& scene, const std::vector<FreeKey>& free);
 
 }  // namespace tunica::verification::calibration
