@@ -150,10 +150,7 @@ int tunica::run_program(int argc, char** argv, const Program& program) {
   scene_app->add_flag("--parameters", scene.parameters, "Print the manual of every key (Markdown)");
 
   ReportArguments report;
-  auto* report_app = app.add_subcommand("report", "Make one HTML file of one or more results");
-  report_app->add_option("folders", report.folders, "Folders of results")->required()->type_name("DIR...");
-  report_app->add_option("--out", report.out, "File to write (default: report.html beside the results)")
-      ->type_name("FILE");
+  add_report_command(app, report);
 
   try {
     app.parse(argc, argv);
@@ -183,7 +180,7 @@ int tunica::run_program(int argc, char** argv, const Program& program) {
     if (*calibrate_app) return after_output(program, calibrate_command(calibrate, program));
     if (*serve_app) return after_output(program, serve_command(serve, program));
     if (*scene_app) return after_output(program, scene_command(scene));
-    return after_output(program, report_command(report));
+    return after_output(program, report_command(report, program));
   } catch (const InvalidInput& error) {
     return complain(program, error.what(), bad_input);
   } catch (const OutputFailure& error) {

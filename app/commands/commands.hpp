@@ -92,8 +92,11 @@ int scene_command(const SceneArguments& arguments);
 
 struct ReportArguments {
   std::vector<std::string> folders;
+  std::vector<std::uint64_t> points;  ///< of a sweep, whose whole results are computed and shown
   std::string out;  ///< empty: report.html in the folder, or in the folder that holds the first of several
 };
-int report_command(const ReportArguments& arguments);
+int report_command(const ReportArguments& arguments, const Program& program);
+/// Declares the command and what it is given; the arguments have to outlive the parsing.
+CLI::App* add_report_command(CLI::App& app, ReportArguments& arguments);
 
 }  // namespace tunica

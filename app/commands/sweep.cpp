@@ -11,6 +11,7 @@
 #include "app/commands/commands.hpp"
 #include "app/interrupt.hpp"
 #include "app/progress.hpp"
+#include "app/report/sweep_page.hpp"
 #include "app/result_folder.hpp"
 #include "app/tell.hpp"
 #include "core/error.hpp"
@@ -56,18 +57,22 @@ run::Question question_of(const SweepArguments& arguments, const sweep::Points& 
   return question;
 }
 
-int tell_end(const sweep::SweepSummary& summary, const fs::path& folder, bool quiet) {
+/// Writes the report of what there is and tells how it ended.
+int conclude(const sweep::SweepSummary& summary, const fs::path& folder, bool quiet) {
   const std::uint64_t ended = summary.done + summary.gave_up + summary.refused;
+  // A shard alone can have no point at all.
+  if (ended > 0) write_whole(folder / "report.html", make_sweep_report(folder));
   if (summary.interrupted) {
     tell(fmt::format("tunica: interrupted; {} of {} points are in {}, --resume goes on\n", ended,
                      summary.count, folder.string()));
     return interrupted;
   }
   if (!quiet)
-    tell(fmt::format("{}: {} points done{}{}: sweep.csv, sweep.db, sweep.json\n", folder.string(),
-                     summary.done, summary.gave_up > 0 ? fmt::format(", {} gave up", summary.gave_up) : "",
-                     summary.refused > 0 ? fmt::format(", {} refused", summary.refused) : ""),
-         stdout);
+    tell(
+        fmt::format("{}: {} points done{}{}: sweep.csv, sweep.db, sweep.json, report.html\n", folder.string(),
+                    summary.done, summary.gave_up > 0 ? fmt::format(", {} gave up", summary.gave_up) : "",
+                    summary.refused > 0 ? fmt::format(", {} refused", summary.refused) : ""),
+        stdout);
   if (summary.done > 0) return done;
   tell(fmt::format("tunica: {}: no point has a result; sweep.csv says why, in its column reason\n",
                    folder.string()));
@@ -83,7 +88,7 @@ int sweep_command(const SweepArguments& arguments, const Program& program) {
   if (!arguments.merge.empty()) {
     if (!arguments.scene.empty() || arguments.out.empty())
       throw InvalidInput("sweep --merge: name the folders of the shards and --out, and nothing else");
-    return tell_end(
+    return conclude(
         sweep::merge({arguments.merge.begin(), arguments.merge.end()}, arguments.out, arguments.replace),
         arguments.out, arguments.quiet);
   }
@@ -130,7 +135,7 @@ int sweep_command(const SweepArguments& arguments, const Program& program) {
   };
   const sweep::Campaign campaign{door, arguments.tier,      *points,          question, shard,
                                  jobs, arguments.keep_runs, arguments.timings};
-  return tell_end(sweep::run_sweep(campaign, folder, control), folder, arguments.quiet);
+  return conclude(sweep::run_sweep(campaign, folder, control), folder, arguments.quiet);
 }
 
 }  // namespace tunica

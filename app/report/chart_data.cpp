@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "app/report/html.hpp"
+#include "app/report/json_object.hpp"
 #include "app/report/sections.hpp"
 #include "core/observables/record.hpp"
 #include "core/units.hpp"
@@ -20,45 +21,12 @@ using namespace observables;
 
 constexpr double stress_unit = 1e5;  // dyn/cm2
 constexpr int digits = 7;
-constexpr int time_digits = 10;  // times of different runs are compared by the script
-
-/// The unit that the charts show a column in, as a number of the column's own.
-double display_unit(const Column& column) {
-  if (column.name == "wall_shear_stress") return 1.0;
-  if (column.name.starts_with("von_mises")) return stress_unit;
-  return column.unit == "dyn/cm2" ? mmhg : 1.0;
-}
 
 bool has_values(const std::vector<double>& values) {
   for (const double value : values)
     if (std::isfinite(value)) return true;
   return false;
 }
-
-/// Builds a JSON object member by member; numbers are written straight, for speed.
-class Object {
- public:
-  explicit Object(std::string& json) : json_(json) { json_ += '{'; }
-  Object(const Object&) = delete;
-  Object& operator=(const Object&) = delete;
-  ~Object() { json_ += '}'; }
-
-  std::string& key(std::string_view name) {
-    if (!first_) json_ += ',';
-    first_ = false;
-    json_ += script_string(name) + ":";
-    return json_;
-  }
-  void text(std::string_view name, std::string_view value) { key(name) += script_string(value); }
-  void value(std::string_view name, double value) { append_value(key(name), value); }
-
- private:
-  static void append_value(std::string& json, double value) {
-    json += std::isfinite(value) ? fmt::format("{:.{}g}", value, time_digits) : "null";
-  }
-  std::string& json_;
-  bool first_ = true;
-};
 
 void append_columns(Object& run, const Table& table) {
   Object columns(run.key("columns"));
@@ -156,6 +124,12 @@ void append_sensitivities(Object& run, const RunSummary& summary) {
 }
 
 }  // namespace
+
+double display_unit(const Column& column) {
+  if (column.name == "wall_shear_stress") return 1.0;
+  if (column.name.starts_with("von_mises")) return stress_unit;
+  return column.unit == "dyn/cm2" ? mmhg : 1.0;
+}
 
 std::string chart_data(const std::vector<RunSummary>& runs) {
   std::string json;

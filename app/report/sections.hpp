@@ -13,6 +13,9 @@ namespace tunica::report {
 /// deg and 1e5 dyn/cm2, rounded to 7 digits.
 std::string chart_data(const std::vector<RunSummary>& runs);
 
+/// The unit that people read a column in, as a number of the column's own: mmHg, 1e5 dyn/cm2 for stresses.
+double display_unit(const observables::Column& column);
+
 /// What a verification found, and the curves of its differences as JSON for a <script> element. Empty, and
 /// "[]", for null.
 std::string comparison_section(const verification::CrossTier* found);

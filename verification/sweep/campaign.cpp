@@ -234,6 +234,17 @@ Json read_campaign(const fs::path& folder) {
   return all;
 }
 
+Table table_of(const Json& campaign, const fs::path& folder, Table::Mode mode) {
+  run::Question question;
+  for (const std::string name : campaign.at("quantities"))
+    question.quantities.push_back(run::parse_quantity(name));
+  question.keys = campaign.at("gradients").get<std::vector<std::string>>();
+  std::vector<Varied> keys;
+  for (const Json& parameter : campaign.at("design").at("parameters"))
+    keys.push_back({parameter.at("key"), parameter.at("unit")});
+  return {folder / database_file, mode, keys, number_columns(question)};
+}
+
 bool holds_sweep(const fs::path& folder) {
   std::error_code unreadable;
   return fs::exists(folder / campaign_file, unreadable) || fs::exists(folder / database_file, unreadable);
@@ -282,16 +293,6 @@ SweepSummary run_sweep(const Campaign& campaign, const fs::path& folder, const S
 SweepSummary merge(const std::vector<fs::path>& folders, const fs::path& out, bool replace) {
   if (folders.size() < 2) throw InvalidInput("--merge: name at least two folders of shards");
   const Json first = read_campaign(folders.front());
-  run::Question question;
-  for (const std::string name : first.at("quantities"))
-    question.quantities.push_back(run::parse_quantity(name));
-  question.keys = first.at("gradients").get<std::vector<std::string>>();
-  std::vector<Varied> keys;
-  for (const Json& parameter : first.at("design").at("parameters"))
-    keys.push_back({parameter.at("key"), parameter.at("unit")});
-  const auto table_of = [&](const fs::path& folder, Table::Mode mode) {
-    return Table(folder / database_file, mode, keys, number_columns(question));
-  };
   const std::uint64_t count = shard_in(first).count;
   std::vector<fs::path> by_index(count);
   for (const fs::path& folder : folders) {
@@ -312,7 +313,7 @@ SweepSummary merge(const std::vector<fs::path>& folders, const fs::path& out, bo
       throw InvalidInput(
           fmt::format("{} and {}: are both shard {}", place.string(), folder.string(), shard.text()));
     place = folder;
-    const Table part = table_of(folder, Table::Mode::read);
+    const Table part = table_of(first, folder, Table::Mode::read);
     const std::uint64_t ended = part.points().size(), needed = shard.share_of(first.at("points"));
     if (ended != needed)
       throw InvalidInput(fmt::format("{}: shard {} has {} of {} points; complete it with --resume",
@@ -326,8 +327,8 @@ SweepSummary merge(const std::vector<fs::path>& folders, const fs::path& out, bo
   make_result_folder(out);
   const FolderLock lock(out);
   remove_sweep(out);
-  Table table = table_of(out, Table::Mode::create);
-  for (const fs::path& folder : by_index) table.take(table_of(folder, Table::Mode::read));
+  Table table = table_of(first, out, Table::Mode::create);
+  for (const fs::path& folder : by_index) table.take(table_of(first, folder, Table::Mode::read));
   write_csv(table, out / table_file, first.at("timings"));
   SweepSummary summary = summary_of(table);
   write_campaign(first, {}, summary, out);

@@ -82,6 +82,8 @@ inline constexpr const char* campaign_file = "sweep.json";
 
 /// sweep.json of a folder. Throws InvalidInput when it is missing or none.
 nlohmann::ordered_json read_campaign(const std::filesystem::path& folder);
+/// The table in a folder that has the columns of a sweep.json. Throws as Table does.
+Table table_of(const nlohmann::ordered_json& campaign, const std::filesystem::path& folder, Table::Mode mode);
 bool holds_sweep(const std::filesystem::path& folder);
 
 }  // namespace tunica::sweep
