@@ -74,6 +74,7 @@ int conclude(const sweep::SweepSummary& summary, const fs::path& folder, bool qu
                     summary.refused > 0 ? fmt::format(", {} refused", summary.refused) : ""),
         stdout);
   if (summary.done > 0) return done;
+  if (summary.count == 0) return done;  // one of more parts than there are points
   tell(fmt::format("tunica: {}: no point has a result; sweep.csv says why, in its column reason\n",
                    folder.string()));
   return gave_up;

@@ -114,6 +114,17 @@ TEST_F(Sweep, ShardsMakeTheWhole) {
   ASSERT_EQ(merged.code, 0) << merged.errors;
   EXPECT_EQ(csv("merged"), csv("whole"));
 
+  // More parts than points: those that have none are done, too, and belong to the whole.
+  const Texts two{"--vary", "outlet.resistance=6e5:1.2e6:2"};
+  ASSERT_EQ(sweep("two", two).code, 0);
+  for (const char* part : {"1", "2", "3"}) {
+    const Ended ended =
+        sweep(std::string("of-two") + part, joined(two, {"--shard", std::string(part) + "/3"}));
+    ASSERT_EQ(ended.code, 0) << ended.errors;
+  }
+  ASSERT_EQ(merge({"of-two1", "of-two2", "of-two3"}, "merged-two").code, 0);
+  EXPECT_EQ(csv("merged-two"), csv("two"));
+
   for (const auto& [parts, why] :
        std::vector<std::pair<Texts, std::string>>{{{"part1", "part3"}, "shard 2/3 is missing"},
                                                   {{"part1", "part1", "part2"}, "both shard 1/3"},
