@@ -130,7 +130,7 @@ void append_indices(std::string& json, const fs::path& folder) {
 /// Points with whole results in the folder: those chosen, then others by their numbers.
 std::vector<std::uint64_t> points_with_curves(const fs::path& folder,
                                               const std::vector<std::uint64_t>& chosen) {
-  std::vector<std::uint64_t> found = chosen, others;
+  std::vector<std::uint64_t> found, others = chosen;
   std::error_code missing;
   for (const auto& entry : fs::directory_iterator(folder / "points", missing)) {
     const std::string name = entry.path().filename().string();
@@ -139,7 +139,7 @@ std::vector<std::uint64_t> points_with_curves(const fs::path& folder,
     if (error == std::errc{} && end == name.data() + name.size() && fs::exists(entry.path() / "record.json"))
       others.push_back(number);
   }
-  std::sort(others.begin(), others.end());
+  std::sort(others.begin() + static_cast<long>(chosen.size()), others.end());
   for (const std::uint64_t point : others)
     if (std::find(found.begin(), found.end(), point) == found.end()) found.push_back(point);
   if (found.size() > most_curves) found.resize(most_curves);

@@ -4,9 +4,11 @@
 #include <iostream>
 
 #include "app/report/report.hpp"
+#include "app/report/sweep_page.hpp"
 #include "tests/support/bent_tube.hpp"
 #include "tests/support/fake_tier.hpp"
 #include "tests/support/made_scene.hpp"
+#include "tests/support/made_sweep.hpp"
 #include "tests/support/synthetic.hpp"
 #include "verification/cross_tier.hpp"
 
@@ -98,6 +100,20 @@ StoredResult in_space(const char* law, const test_support::BentTube& tube) {
   return run;
 }
 
+/// A sweep in which two points have whole results.
+std::string sweep_page(const std::filesystem::path& folder) {
+  std::filesystem::remove_all(folder);
+  test_support::make_sweep(
+      folder, {.reason = "</script><script>document.documentElement.dataset.broken='yes'</script>",
+               .with_indices = true});
+  for (const char* point : {"4", "7"}) {
+    const std::string length = std::string("geometry.length=0.") + point;
+    const run::Door door = test_support::door_of_made_scene({length});
+    write_result(folder / "points" / point, door.source().scene(), synthetic_run({}).result);
+  }
+  return make_sweep_report(folder, {7});
+}
+
 }  // namespace
 
 int main(int count, char** arguments) {
@@ -129,5 +145,6 @@ int main(int count, char** arguments) {
       make_report({in_space("EXP1+EXP2-FS", {.per_side = 12, .through = 4, .along = 72, .frames = 33})}));
   const verification::CrossTier found = verified(folder / "verify");
   write_whole(folder / "verify.html", make_report(found.tier_results(), &found));
+  write_whole(folder / "sweep.html", sweep_page(folder / "sweep of 'many' points"));
   return 0;
 }

@@ -51,7 +51,7 @@ void make_sweep(const std::filesystem::path& folder, const MadeSweep& made) {
       {"design", {{"kind", "list"}, {"parameters", parameters}}},
       {"points", count},
       {"shard", {{"index", 1}, {"count", 1}}},
-                      {"timings", false},
+      {"timings", false},
       {"counts", {{"done", count - 1}, {"gave-up", 1}, {"refused", 0}}},
       {"quantities", {"pressure.max", "radial_displacement.P1.change", "fiber_angle.P1.change"}},
       {"gradients", Json::array()},
