@@ -78,6 +78,15 @@ double mean(const std::vector<double>& values) {
   return values.empty() ? none : sum / static_cast<double>(values.size());
 }
 
+/// The place of a text among those there are; what is more than a picture bears goes together.
+std::size_t text_level(std::vector<std::string>& texts, const std::string& text) {
+  const auto place = std::find(texts.begin(), texts.end(), text);
+  if (place != texts.end()) return static_cast<std::size_t>(place - texts.begin());
+  if (texts.size() == most_levels) return most_levels - 1;
+  texts.push_back(texts.size() + 1 < most_levels ? text : "others");
+  return texts.size() - 1;
+}
+
 SweepKey key_of(const sweep::Varied& varied) {
   SweepKey key;
   key.name = varied.key;
@@ -160,9 +169,7 @@ SweepTable read_sweep(const std::filesystem::path& folder) {
         table.key_values[k].push_back(std::stod(row.keys[k]) * key.factor);
         continue;
       }
-      const auto place = std::find(key.texts.begin(), key.texts.end(), row.keys[k]);
-      table.key_values[k].push_back(static_cast<double>(place - key.texts.begin()));
-      if (place == key.texts.end()) key.texts.push_back(row.keys[k]);
+      table.key_values[k].push_back(static_cast<double>(text_level(key.texts, row.keys[k])));
     }
     for (std::size_t q = 0; q < table.quantities.size(); ++q)
       table.values[q].push_back(is_done ? row.numbers[q] * table.quantities[q].factor : none);
