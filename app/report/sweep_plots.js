@@ -44,9 +44,9 @@ const Plots = (() => {
       // The sparsest of these sets that has enough ticks, as a decade may hold the whole range.
       const powers = [];
       for (let power = Math.floor(Math.log10(lowest)); power <= Math.log10(highest); ++power) powers.push(power);
-      for (const steps of [[1], [1, 3], [1, 2, 5], [1, 2, 3, 4, 5, 6, 8]]) {
+      for (const steps of [[1], [1, 3], [1, 2, 5], [1, 1.5, 2, 3, 4, 5, 6, 8]]) {
         const inside = powers.flatMap(power => steps.map(step => step * 10 ** power)).filter(value => value >= lowest * (1 - 1e-9) && value <= highest * (1 + 1e-9));
-        if (inside.length >= Math.min(3, most) || steps.length === 7) return inside.filter((_, at) => at % Math.ceil(inside.length / most) === 0).map(value => [value, short(value)]);
+        if (inside.length >= Math.min(3, most) || steps.length === 8) return inside.filter((_, at) => at % Math.ceil(inside.length / most) === 0).map(value => [value, short(value)]);
       }
     }
     const rough = (highest - lowest) / most, power = 10 ** Math.floor(Math.log10(rough));
