@@ -304,6 +304,24 @@
   alongCharts();
   sensitivityChart();
 
+  // Lines of several runs at four points tangle: one point can be shown alone, which a page of many runs begins with.
+  const hiddenRuns = new Set(), manyRuns = 4;
+  const atWallPoints = figures.filter(figure => figure.spec.sync === "time" && !figure.spec.draw &&
+    figure.spec.lines.some(line => line.partLabel === points[1]));
+  const wallPoint = document.getElementById("wall-point");
+  const showPoints = () => {
+    for (const figure of atWallPoints)
+      for (const point of points)
+        figure.toggle(figure.spec.lines.filter(line => line.partLabel === point && !hiddenRuns.has(line.run)),
+                      !wallPoint.value || wallPoint.value === point);
+  };
+  if (runs.length > 1 && atWallPoints.length) {
+    document.getElementById("point-choice").hidden = false;
+    if (runs.length > manyRuns) wallPoint.value = points[0];
+    wallPoint.addEventListener("change", showPoints);
+    showPoints();
+  }
+
   // With several runs, a button for each hides or shows it in all charts.
   if (runs.length > 1) {
     const list = document.getElementById("run-list");
@@ -315,6 +333,9 @@
         const shown = button.getAttribute("aria-pressed") !== "true";
         button.setAttribute("aria-pressed", String(shown));
         for (const figure of figures) figure.toggleRun(index, shown);
+        if (shown) hiddenRuns.delete(index);
+        else hiddenRuns.add(index);
+        showPoints();
       });
       list.append(button);
     });

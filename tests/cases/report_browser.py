@@ -165,6 +165,26 @@ class Report(unittest.TestCase):
         left_out = self.value("document.querySelector('section[aria-labelledby=paper]').textContent")
         self.assertIn(f"{names[0]}: not one of the paper's arteries", left_out)
 
+    def test_one_point_in_the_wall_of_many_runs(self):
+        shown = """[...document.querySelectorAll('#chart-mises .legend tbody td button')]
+            .map(button => button.getAttribute('aria-pressed') === 'true')"""
+        choose = "(() => { const list = document.getElementById('wall-point'); list.value = '%s'; list.dispatchEvent(new Event('change')); })()"
+        self.opens("ten", 13)
+        self.assertEqual(self.value(shown), [True, False, False, False] * 10)
+        self.value(choose % "P3")
+        self.assertEqual(self.value(shown), [False, False, True, False] * 10)
+        # A run that is hidden stays so, and one that is shown again has the chosen point only.
+        self.value("document.querySelectorAll('#run-list button')[1].click()")
+        self.value(choose % "")
+        self.assertEqual(self.value(shown), [True] * 4 + [False] * 4 + [True] * 32)
+        self.value(choose % "P2")
+        self.value("document.querySelectorAll('#run-list button')[1].click()")
+        self.assertEqual(self.value(shown), [False, True, False, False] * 10)
+        # Other charts keep all their lines.
+        self.assertEqual(self.value("document.querySelectorAll('#chart-pressure .legend [aria-pressed=false]').length"), 0)
+        self.opens("one", 13)
+        self.assertTrue(self.value("document.getElementById('point-choice').hidden"))
+
     def unreachable(self):
         """Cells of tables that are not wholly within the window, or within a box that would have to be scrolled, and
         values whose head is neither above nor beside them."""
