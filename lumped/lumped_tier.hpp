@@ -12,6 +12,9 @@ class LumpedTier final : public Tier {
   std::string refusal(const Scene& scene) const override;
   bool suits(const Scene& scene) const override;
   std::unique_ptr<TierRun> prepare(const Scene& scene) const override;
+  /// From some hundred rows of the last beat; nullopt where derivatives are asked for.
+  std::optional<run::Answer> answer(const Scene& scene, const run::Question& question,
+                                    const RunControl& control) const override;
 };
 
 }  // namespace tunica::lumped

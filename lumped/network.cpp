@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/observables/result.hpp"
 #include "core/radial/from_scene.hpp"
+#include "lumped/wall_tables.hpp"
 
 namespace tunica::lumped {
 
@@ -23,14 +24,6 @@ template <class P>
 P strain_of(const P& growth) {
   using std::sqrt;
   return growth / (1.0 + sqrt(1.0 + growth));
-}
-
-/// xi of P1..P4.
-std::vector<double> wall_places() {
-  std::vector<double> places;
-  for (int k = 0; k < observables::wall_points; ++k)
-    places.push_back(static_cast<double>(k) / (observables::wall_points - 1));
-  return places;
 }
 
 }  // namespace
@@ -87,7 +80,7 @@ Network::Network(const Scene& scene, const std::vector<std::string>& parameters)
     throw InvalidInput(
         "outlet.resistance = 0 with outlet.kind = \"rcr\" shorts its compliance; set it above 0");
 
-  curve_ = std::make_unique<radial::WallCurve>(radial::ring_model(scene, parameters), wall_places());
+  curve_ = wall_curve(scene, parameters);
   scales_ = typical_sizes();
 }
 
@@ -227,10 +220,19 @@ void Network::rate_of(const NetworkNumbers<P>& n, double time, const P* y, int k
 }
 
 template <class P>
-P Network::mid_strain_of(const P* y) const {
+P Network::mid_growth_of(const P* y) const {
   // An even number of compartments has its middle between two of them.
   const int lower = (compartments_ - 1) / 2, upper = compartments_ / 2;
-  return strain_of(P(0.5 * (y[area_index(lower)] + y[area_index(upper)])));
+  return P(0.5 * (y[area_index(lower)] + y[area_index(upper)]));
+}
+
+double Network::mid_growth(const double* y) const {
+  return mid_growth_of(y);
+}
+
+template <class P>
+P Network::mid_strain_of(const P* y) const {
+  return strain_of(mid_growth_of(y));
 }
 
 template <class P>

@@ -78,6 +78,8 @@ class Network {
   Outside<Dual<double, 1>> outside_derivative(double time, const double* y, const double* dy, int k) const;
   /// The compartments from the inlet to the outlet.
   std::vector<Compartment> inside(double time, const double* y) const;
+  /// Growth of the lumen's area at mid-length, or its rate for rates of the unknowns.
+  double mid_growth(const double* y) const;
   /// Of the section at mid-length.
   radial::LumenStretch mid_stretch(const double* y) const;
   /// Of the compartment that is opened most.
@@ -106,6 +108,8 @@ class Network {
   template <class P>
   Outside<P> outside_of(const NetworkNumbers<P>& n, double time, const P* y, int k) const;
   template <class P>
+  P mid_growth_of(const P* y) const;
+  template <class P>
   P mid_strain_of(const P* y) const;
 
   int area_index(int compartment) const;
@@ -118,8 +122,8 @@ class Network {
   Inlet inlet_;
   NetworkNumbers<double> numbers_;
   std::vector<NetworkNumbers<Dual<double, 1>>> seeded_;
-  std::unique_ptr<radial::WallCurve> curve_;
-  double working_pressure_ = 0;  ///< dyn/cm2, of the size that the artery sees
+  std::shared_ptr<const radial::WallCurve> curve_;  ///< of this thread's networks with the same wall
+  double working_pressure_ = 0;                     ///< dyn/cm2, of the size that the artery sees
   std::vector<double> scales_;
 };
 

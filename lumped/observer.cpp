@@ -30,7 +30,11 @@ constexpr Quantity section_quantities[] = {{"pressure", "dyn/cm2"},
                                            {"transmural_pressure", "dyn/cm2"},
                                            {"inflow", "cm3/s"},
                                            {"outflow", "cm3/s"}};
-constexpr Quantity point_quantities[] = {{"radial_displacement", "cm"}, {"fiber_angle", "deg"}};
+constexpr Quantity point_quantities[] = {{"radial_displacement", "cm"},
+                                         {"fiber_angle", "deg"},
+                                         {"fiber_stretch", "1"},
+                                         {"recruitment", "1"},
+                                         {"von_mises", "dyn/cm2"}};
 
 }  // namespace
 
@@ -40,7 +44,7 @@ Observer::Observer(const Network& network, std::vector<std::string> parameters)
   for (const double xi : network.curve().places()) place_layers_.push_back(radial::layer_at(boundaries, xi));
 }
 
-observables::Sample Observer::sample(double time, const double* y) const {
+observables::Sample Observer::sample(double time, const double* y, const Looked& looked) const {
   const auto& curve = network_.curve();
   const auto& ring = curve.model().ring();
   const Outside<double> outside = network_.outside(time, y);
@@ -56,12 +60,14 @@ observables::Sample Observer::sample(double time, const double* y) const {
   for (int p = 0; p < observables::wall_points; ++p) {
     observables::WallPoint& point = sample.wall[p];
     point.radial_displacement = curve.displacement(s, p);
+    if (!looked.von_mises[p] && !looked.fibers[p]) continue;
     const auto gradient =
         Radial::gradient(point.radial_displacement, curve.radial_slope(s, p), ring.radius(curve.places()[p]));
     const auto& law = ring.layers[place_layers_[p]].law;
-    point.von_mises = von_mises_stress(cauchy_stress(wall::piola(law, gradient, Radial::axes()), gradient));
+    if (looked.von_mises[p])
+      point.von_mises = von_mises_stress(cauchy_stress(wall::piola(law, gradient, Radial::axes()), gradient));
     const auto& families = wall::families(law);
-    if (families.empty()) continue;
+    if (families.empty() || !looked.fibers[p]) continue;
     const auto fiber = wall::fiber_state(families.front(), gradient, Radial::axes());
     point.fiber_angle = fiber.angle * degrees;
     point.fiber_stretch = fiber.stretch;
@@ -114,16 +120,23 @@ void Observer::append_sensitivities(double time, const double* y,
             .derivative[0]);
     put(outside.inflow.derivative[0]);
     put(outside.outflow.derivative[0]);
-    for (int p = 0; p < observables::wall_points; ++p) put(displacement(p).derivative[0]);
+    std::vector<double> angles, stretches, recruited, stresses;
     for (int p = 0; p < observables::wall_points; ++p) {
-      const auto& families = wall::families(ring.layers[place_layers_[p]].law);
-      if (families.empty()) {
-        put(observables::none);
-        continue;
-      }
+      put(displacement(p).derivative[0]);
+      const auto& law = ring.layers[place_layers_[p]].law;
       const auto gradient = Radial::gradient(displacement(p), slope(p), ring.radius(curve.places()[p]));
-      put(wall::fiber_state(families.front(), gradient, Radial::axes()).angle.derivative[0] * degrees);
+      stresses.push_back(von_mises_stress(cauchy_stress(wall::piola(law, gradient, Radial::axes()), gradient))
+                             .derivative[0]);
+      const auto& families = wall::families(law);
+      const bool has_fibers = !families.empty();
+      const auto fiber =
+          has_fibers ? wall::fiber_state(families.front(), gradient, Radial::axes()) : wall::FiberState<D>{};
+      angles.push_back(has_fibers ? fiber.angle.derivative[0] * degrees : observables::none);
+      stretches.push_back(has_fibers ? fiber.stretch.derivative[0] : observables::none);
+      recruited.push_back(has_fibers ? fiber.recruitment.derivative[0] : observables::none);
     }
+    for (const auto* values : {&angles, &stretches, &recruited, &stresses})
+      for (const double value : *values) put(value);
   }
 }
 

@@ -9,13 +9,19 @@
 
 namespace tunica::lumped {
 
+/// Which quantities of P1..P4 a row is to have: what takes long is computed where it is looked at only.
+struct Looked {
+  bool fibers[observables::wall_points] = {true, true, true, true};
+  bool von_mises[observables::wall_points] = {true, true, true, true};
+};
+
 /// Turns states of the network into the tables of a result.
 class Observer {
  public:
   Observer(const Network& network, std::vector<std::string> parameters);
 
   /// One row of observables.csv.
-  observables::Sample sample(double time, const double* y) const;
+  observables::Sample sample(double time, const double* y, const Looked& looked = {}) const;
   /// One row of sensitivities.csv; `sensitivities[k]` is dy/d(parameter k).
   void append_sensitivities(double time, const double* y, const std::vector<const double*>& sensitivities,
                             observables::Table& table) const;

@@ -193,7 +193,7 @@ bool CompressibleRing::newton(const Ring<double>& ring, Solution& solution) cons
     // volume change depends on.
     double largest = 0;
     for (const double w : solution.nodal) largest = std::max(largest, std::abs(w));
-    const double negligible = 1e-13 * largest;
+    const double negligible = 1e-3 * options_.accuracy * largest;
     const auto is_small = [&] { return size * size <= negligible * previous_update; };
     if (iteration >= full_steps) {
       const auto squared = [](std::span<const double> r) {
@@ -219,7 +219,7 @@ CompressibleRing::Solution CompressibleRing::solve_from(const Ring<double>& ring
                                                         const Solution& guess) const {
   Solution start = guess;
   start.inner = inner_area(merged_, lumen_stretch);
-  std::vector<Front> put = find_fronts(ring, boundaries_, field(start));
+  std::vector<Front> put = find_fronts(ring, boundaries_, field(start), options_.kink);
   Solution solution = refitted(start, lumen_stretch, put);
   FrontSearch search;
   constexpr int most_fits = 60;
@@ -227,7 +227,7 @@ CompressibleRing::Solution CompressibleRing::solve_from(const Ring<double>& ring
     if (!newton(ring, solution))
       throw SolverFailure(fmt::format(
           "Newton's method finds no equilibrium of the wall at lumen stretch {:.6g}", lumen_stretch.value()));
-    const std::vector<Front> found = find_fronts(ring, boundaries_, field(solution));
+    const std::vector<Front> found = find_fronts(ring, boundaries_, field(solution), options_.kink);
     const bool is_fitted = std::all_of(
         found.begin(), found.end(), [&](const Front& front) { return has_end_near(solution.mesh, front); });
     if (is_fitted) return solution;
@@ -253,7 +253,7 @@ CompressibleRing::Solution CompressibleRing::solve(LumenStretch lumen_stretch) c
 
 double CompressibleRing::accuracy() const {
   // A stress that all but jumps leaves elements so short that round-off shows in their slopes.
-  return stress_jumps(merged_) ? 1e-7 : 1e-10;
+  return std::max(options_.accuracy, stress_jumps(merged_) ? 1e-7 : 1e-10);
 }
 
 CompressibleRing::Solution CompressibleRing::solve_by_sharpening(LumenStretch lumen_stretch) const {

@@ -21,8 +21,10 @@ namespace tunica::radial {
 class CompressibleRing final : public RingModel {
  public:
   struct Options {
-    int degree = 10;  ///< of each element
-    int points = 12;  ///< of its Gauss rule
+    int degree = 10;            ///< of each element
+    int points = 12;            ///< of its Gauss rule
+    double accuracy = 1e-10;    ///< relative, of the responses: how far Newton's method goes
+    double kink = finest_kink;  ///< how closely elements end at fronts
   };
 
   CompressibleRing(Ring<double> ring, std::vector<Seeded> seeded, Options options);

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "core/error.hpp"
 #include "core/radial/compressible_ring.hpp"
 #include "core/radial/incompressible_ring.hpp"
@@ -18,6 +20,14 @@ TetherTraction traction_from(const std::string& name) {
   return TetherTraction::normal;
 }
 
+/// Elements that a response of this accuracy takes: w is smooth between the fronts, and each degree gains
+/// more than an order of magnitude (docs/theory/core.md, "The thick ring").
+CompressibleRing::Options options_for(double accuracy) {
+  if (accuracy < 1e-8) return {};
+  const int degree = accuracy < 1e-6 ? 8 : 5;
+  return {.degree = degree, .points = degree + 1, .accuracy = accuracy, .kink = 0.1 * std::sqrt(accuracy)};
+}
+
 }  // namespace
 
 template <class P>
@@ -30,7 +40,8 @@ Ring<P> ring_from_scene(const SeededScene<P>& scene) {
 template Ring<double> ring_from_scene(const SeededScene<double>&);
 template Ring<Dual<double, 1>> ring_from_scene(const SeededScene<Dual<double, 1>>&);
 
-std::unique_ptr<const RingModel> ring_model(const Scene& scene, const std::vector<std::string>& parameters) {
+std::unique_ptr<const RingModel> ring_model(const Scene& scene, const std::vector<std::string>& parameters,
+                                            double accuracy) {
   Ring<double> ring = ring_from_scene(SeededScene<double>(scene));
   std::vector<RingModel::Seeded> seeded;
   for (const auto& parameter : parameters)
@@ -43,7 +54,7 @@ std::unique_ptr<const RingModel> ring_model(const Scene& scene, const std::vecto
             "wall.recruitment = \"sharp\" with wall.exponent = 1: the stress would jump, and compressible "
             "tissue then lingers at the threshold partly recruited, which a step cannot express; use "
             "recruitment = \"smooth\" or incompressible = true");
-  return std::make_unique<CompressibleRing>(std::move(ring), std::move(seeded));
+  return std::make_unique<CompressibleRing>(std::move(ring), std::move(seeded), options_for(accuracy));
 }
 
 }  // namespace tunica::radial

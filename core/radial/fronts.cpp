@@ -26,9 +26,6 @@ bool must_be_resolved(const wall::CollagenFamily<double>& family) {
          (family.exponent == 1 || family.recruitment.sharpness < sharpness_of_a_kink);
 }
 
-/// A kink this far inside an element costs the square of the distance.
-constexpr double kink_tolerance = 1e-7;
-
 /// Levels of I4bar - a^2 at which elements end.
 std::vector<double> levels(const wall::CollagenFamily<double>& family, double largest) {
   std::vector<double> result{0.0};
@@ -101,7 +98,7 @@ double fiber_excess(const wall::CollagenFamily<double>& family, const Ring<doubl
 }
 
 std::vector<Front> find_fronts(const Ring<double>& ring, const std::vector<double>& boundaries,
-                               const Field& field) {
+                               const Field& field, double kink) {
   // Excess varies smoothly through a layer; this many samples find every change of sign that a
   // monotone or once-bent profile can have.
   constexpr int samples = 8;
@@ -133,12 +130,13 @@ std::vector<Front> find_fronts(const Ring<double>& ring, const std::vector<doubl
       for (const double level : levels(family, largest)) {
         for (int k = 0; k < samples; ++k) {
           if ((value[k + 1] > level) == (value[k] > level)) continue;
-          found.push_back(find_root([&](double x) { return excess(x) - level; }, xi[k], xi[k + 1], 1e-13));
+          found.push_back(
+              find_root([&](double x) { return excess(x) - level; }, xi[k], xi[k + 1], 1e-6 * kink));
         }
       }
       std::sort(found.begin(), found.end());
       for (std::size_t k = 0; k < found.size(); ++k) {
-        double tolerance = kink_tolerance;
+        double tolerance = kink;
         if (must_be_resolved(family)) {
           const double before = k > 0 ? found[k] - found[k - 1] : found[k] - lower;
           const double after = k + 1 < found.size() ? found[k + 1] - found[k] : upper - found[k];

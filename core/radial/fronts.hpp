@@ -33,9 +33,13 @@ double fiber_excess(const wall::CollagenFamily<double>& family, const Ring<doubl
 /// Displacement and slope as functions of xi inside a layer.
 using Field = std::function<std::pair<double, double>(double xi)>;
 
-/// The fronts inside the layers, sorted. Families that are mirror images share theirs.
+/// How closely an element has to end at a kink, in xi: its square is what the stress is wrong by there.
+inline constexpr double finest_kink = 1e-7;
+
+/// The fronts inside the layers, sorted. Families that are mirror images share theirs. `kink` as finest_kink,
+/// or wider.
 std::vector<Front> find_fronts(const Ring<double>& ring, const std::vector<double>& boundaries,
-                               const Field& field);
+                               const Field& field, double kink = finest_kink);
 
 /// An element of the radial mesh and the layer that it lies in.
 struct Interval {

@@ -17,7 +17,6 @@ namespace tunica::radial {
 
 namespace {
 
-constexpr int terms = 12;
 /// Pieces are at first not wider than this.
 constexpr double greatest_piece = 0.2;
 /// Pieces are not split below this: a kink that the thresholds do not know (exponent 1 lingers at its
@@ -28,20 +27,9 @@ constexpr double least_foothold = 1e-5;
 /// Of the channels, the slope of pressure stands for itself.
 constexpr int slope_channel = 1;
 
-/// Chebyshev nodes of the first kind on [-1, 1]; no piece is evaluated at its very ends.
-double node(int k) {
-  return std::cos(std::numbers::pi * (k + 0.5) / terms);
-}
-
-/// cos(pi j (k+1/2) / terms), the matrix of the discrete cosine transform.
-const std::array<std::array<double, terms>, terms>& cosines() {
-  static const auto table = [] {
-    std::array<std::array<double, terms>, terms> t{};
-    for (int j = 0; j < terms; ++j)
-      for (int k = 0; k < terms; ++k) t[j][k] = std::cos(std::numbers::pi * j * (k + 0.5) / terms);
-    return t;
-  }();
-  return table;
+/// Terms of the series on each piece: where less is asked for, fewer states are solved for.
+int terms_for(double accuracy) {
+  return accuracy < 1e-8 ? 12 : 6;
 }
 
 /// I4bar - a^2 at a state that changes along a direction, its derivative along it included. P as in Ring.
@@ -57,8 +45,14 @@ Dual<double, 1> excess_along(const wall::CollagenFamily<P>& family, const Ring<P
 
 }  // namespace
 
+WallCurve::Basis::Basis(int count) : terms(count) {
+  for (int k = 0; k < terms; ++k) nodes.push_back(std::cos(std::numbers::pi * (k + 0.5) / terms));
+  for (int j = 0; j < terms; ++j)
+    for (int k = 0; k < terms; ++k) cosines.push_back(std::cos(std::numbers::pi * j * (k + 0.5) / terms));
+}
+
 WallCurve::WallCurve(std::unique_ptr<const RingModel> model, std::vector<double> places)
-    : model_(std::move(model)), places_(std::move(places)) {
+    : model_(std::move(model)), places_(std::move(places)), basis_(terms_for(model_->accuracy())) {
   find_thresholds();
   double lower = least_stretch;
   edges_.insert(lower);
@@ -154,8 +148,8 @@ std::optional<double> WallCurve::threshold_stretch(const wall::CollagenFamily<do
       const auto x = excess_along(family, ring, xi, response.states[0], response.state_rates[0]);
       const double update = -x.value / x.derivative[0];
       stretch += update;
-      // Newton's method: the next update would be below round-off.
-      if (std::abs(update) < 1e-7) return stretch;
+      // Newton's method: the next update would be about the square of this one, below what the model resolves.
+      if (update * update < 1e-4 * model_->accuracy()) return stretch;
     }
     // Tissue whose stress jumps lingers at the threshold, which Newton's method does not foresee.
     const auto excess = [&](double s) {
@@ -212,11 +206,11 @@ std::vector<double> WallCurve::values_at(double stretch) const {
 
 std::optional<WallCurve::Piece> WallCurve::piece_between(double lower, double upper) const {
   if (at_rest_.empty()) at_rest_ = values_at(1.0);
-  const int count = channels();
+  const int count = channels(), terms = basis_.terms;
   const int places = static_cast<int>(places_.size());
   std::vector<double> values(static_cast<std::size_t>(count) * terms);
   for (int k = 0; k < terms; ++k) {
-    const double stretch = 0.5 * (lower + upper) + 0.5 * (upper - lower) * node(k);
+    const double stretch = 0.5 * (lower + upper) + 0.5 * (upper - lower) * basis_.nodes[k];
     const std::vector<double> here = values_at(stretch);
     for (int c = 0; c < count; ++c)
       values[c * terms + k] = c == slope_channel ? here[c] : (here[c] - at_rest_[c]) / (stretch - 1);
@@ -225,7 +219,7 @@ std::optional<WallCurve::Piece> WallCurve::piece_between(double lower, double up
   for (int c = 0; c < count; ++c) {
     for (int j = 0; j < terms; ++j) {
       double sum = 0;
-      for (int k = 0; k < terms; ++k) sum += cosines()[j][k] * values[c * terms + k];
+      for (int k = 0; k < terms; ++k) sum += basis_.cosines[j * terms + k] * values[c * terms + k];
       piece.coefficients[c * terms + j] = sum * (j == 0 ? 1.0 : 2.0) / terms;
     }
   }
@@ -284,6 +278,7 @@ const WallCurve::Piece& WallCurve::piece_at(double stretch) const {
 
 double WallCurve::evaluate(LumenStretch stretch, int channel) const {
   const Piece& piece = piece_at(stretch.value());
+  const int terms = basis_.terms;
   const double x = (2 * stretch.value() - piece.lower - piece.upper) / (piece.upper - piece.lower);
   const double* series = &piece.coefficients[static_cast<std::size_t>(channel) * terms];
   double b1 = 0, b2 = 0;
@@ -298,6 +293,7 @@ double WallCurve::evaluate(LumenStretch stretch, int channel) const {
 
 double WallCurve::differentiate(LumenStretch stretch, int channel) const {
   const Piece& piece = piece_at(stretch.value());
+  const int terms = basis_.terms;
   const double scale = 2 / (piece.upper - piece.lower);
   const double x = 0.5 * scale * (2 * stretch.value() - piece.lower - piece.upper);
   const double* series = &piece.coefficients[static_cast<std::size_t>(channel) * terms];

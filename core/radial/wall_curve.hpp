@@ -73,6 +73,13 @@ class WallCurve {
   long solves() const { return solves_; }
 
  private:
+  /// A Chebyshev series of so many terms, from its values at the nodes.
+  struct Basis {
+    explicit Basis(int terms);
+    int terms;
+    std::vector<double> nodes;    ///< of the first kind, on [-1, 1]; no piece is evaluated at its very ends
+    std::vector<double> cosines;  ///< of the discrete cosine transform, [term][node]
+  };
   struct Piece {
     double lower;
     double upper;
@@ -101,6 +108,7 @@ class WallCurve {
 
   std::unique_ptr<const RingModel> model_;
   std::vector<double> places_;
+  Basis basis_;
   std::vector<Threshold> thresholds_;
   std::vector<double> breaks_;
   mutable std::vector<double> at_rest_;     ///< the channels at stretch 1, once they have been asked for

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "core/error.hpp"
 #include "core/run/quantity.hpp"
@@ -41,6 +42,25 @@ struct Parabola {
   double slope_at(double t) const { return slope + curvature * (t - time); }
 };
 
+/// H = atan(u)/pi + 1/2 of recruitment, by u, which is proportional to I4bar - a^2: between rows that is as
+/// smooth as the stretch, where H all but jumps.
+double excess_of(double recruitment) {
+  return std::tan(std::numbers::pi * (recruitment - 0.5));
+}
+double recruitment_of(double excess) {
+  return std::atan(excess) / std::numbers::pi + 0.5;
+}
+/// Mean of H while u runs evenly from one value to another: the integral of atan is u atan u - ln(1 + u^2)/2.
+double mean_recruitment(double from, double to) {
+  if (std::abs(to - from) <= 1e-6 * (1 + std::abs(from))) return recruitment_of(0.5 * (from + to));
+  const auto integral = [](double u) { return u * std::atan(u) - 0.5 * std::log1p(u * u); };
+  return (integral(to) - integral(from)) / (to - from) / std::numbers::pi + 0.5;
+}
+
+bool is_recruitment(const Column& column) {
+  return column.name.starts_with("recruitment.");
+}
+
 class Answering {
  public:
   Answering(const Result& result, const Beat& beat, const std::vector<std::string>& keys)
@@ -64,7 +84,7 @@ class Answering {
       case Statistic::change:
         return difference(extreme(*column, 1).value, extreme(*column, -1).value);
       case Statistic::mean:
-        return of_columns(*column, [&](const std::vector<double>& y) { return mean(y); });
+        return mean_of(*column);
       case Statistic::drift:
         return of_columns(*column,
                           [&](const std::vector<double>& y) { return y[beat_.last] - y[beat_.first]; });
@@ -106,6 +126,18 @@ class Answering {
     return result;
   }
 
+  Moving mean_of(const Column& column) const {
+    Moving found = of_columns(column, [&](const std::vector<double>& y) { return mean(y); });
+    if (is_recruitment(column) && beat_.first < beat_.last) {
+      double sum = 0;
+      for (std::size_t row = beat_.first; row < beat_.last; ++row)
+        sum += mean_recruitment(excess_of(column.values[row]), excess_of(column.values[row + 1])) *
+               (time_[row + 1] - time_[row]);
+      found.value = sum / (time_[beat_.last] - time_[beat_.first]);
+    }
+    return found;
+  }
+
   double mean(const std::vector<double>& y) const {
     if (beat_.first == beat_.last) return y[beat_.last];
     double sum = 0;
@@ -123,11 +155,15 @@ class Answering {
     const bool is_static = beat_.first == beat_.last;
     // Rows at the ends of the beat have a neighbour on one side only.
     const bool inside = top > beat_.first && top < beat_.last;
-    const Parabola of_value = inside ? Parabola(time_, y, top) : flat(time_[top], y[top]);
+    const bool by_excess = inside && is_recruitment(column);
+    const Parabola of_value = by_excess ? of_excess(y, top)
+                              : inside  ? Parabola(time_, y, top)
+                                        : flat(time_[top], y[top]);
     const bool has_vertex = inside && sign * of_value.curvature < 0;
     const double shift = has_vertex ? -of_value.slope / of_value.curvature : 0;
     const double at = time_[top] + shift;
-    Extreme found{{of_value.at(at), {}}, {is_static ? none : at - beat_.start, {}}};
+    const double value = by_excess ? recruitment_of(of_value.at(at)) : of_value.at(at);
+    Extreme found{{value, {}}, {is_static ? none : at - beat_.start, {}}};
     for (const std::string& key : keys_) {
       const auto* moved = sensitivity(result_.sensitivities, column, key);
       if (!moved) {
@@ -137,10 +173,18 @@ class Answering {
       }
       const Parabola of_moved = inside ? Parabola(time_, *moved, top) : flat(time_[top], (*moved)[top]);
       found.value.derivatives.push_back(of_moved.at(at));
-      found.time.derivatives.push_back(
-          is_static ? none : (has_vertex ? -of_moved.slope_at(at) / of_value.curvature : 0.0));
+      found.time.derivatives.push_back(is_static    ? none
+                                       : by_excess  ? none
+                                       : has_vertex ? -of_moved.slope_at(at) / of_value.curvature
+                                                    : 0.0);
     }
     return found;
+  }
+
+  Parabola of_excess(const std::vector<double>& y, std::size_t row) const {
+    return {{time_[row - 1], time_[row], time_[row + 1]},
+            {excess_of(y[row - 1]), excess_of(y[row]), excess_of(y[row + 1])},
+            1};
   }
 
   static Parabola flat(double time, double value) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstdint>
 #include <limits>
 #include <string_view>
 
@@ -13,6 +14,7 @@
 #include "core/scene/message.hpp"
 #include "core/scene/parameter.hpp"
 #include "core/scene/text.hpp"
+#include "core/scene/typed.hpp"
 
 namespace tunica::scene {
 
@@ -101,6 +103,37 @@ void apply_override(toml::table& root, const std::string& text, const std::strin
   const toml::table value = value_table(trimmed(std::string_view(text).substr(equals + 1)), place);
   // Copies have no place in the file, which is how messages tell an override from a line.
   table->insert_or_assign(rest, *value.get("value"));
+}
+
+bool apply_number(GivenScene& given, const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos) return false;
+  const std::string key = trimmed(std::string_view(text).substr(0, equals));
+  const std::string number = trimmed(std::string_view(text).substr(equals + 1));
+  if (key.find('[') != std::string::npos) return false;
+  const Parameter* parameter = find_parameter(key);
+  if (!parameter || (parameter->kind != Kind::number && parameter->kind != Kind::integer)) return false;
+  const char *begin = number.data(), *end = begin + number.size();
+  const std::string place = given.label + ", override";
+  const auto put = [&](const auto& node) {
+    try {
+      given.values[key] = {typed_value(node, *parameter, key), place, true};
+    } catch (const InvalidInput& error) {
+      throw InvalidInput(fmt::format("{}: {}", place, error.what()));
+    }
+    return true;
+  };
+  // TOML's own forms; what else reads as a number is left to its parser.
+  if (!number.empty() && number.find_first_not_of("0123456789-") == std::string::npos) {
+    std::int64_t whole = 0;
+    const auto [last, error] = std::from_chars(begin, end, whole);
+    const bool leads_with_zero = number.size() > 1 && number[number[0] == '-' ? 1 : 0] == '0';
+    return error == std::errc{} && last == end && !leads_with_zero && put(toml::value<std::int64_t>(whole));
+  }
+  if (number.find_first_not_of("0123456789-.e+") != std::string::npos || number.front() == '.') return false;
+  double value = 0;
+  const auto [last, error] = std::from_chars(begin, end, value);
+  return error == std::errc{} && last == end && put(toml::value<double>(value));
 }
 
 }  // namespace tunica::scene

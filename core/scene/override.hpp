@@ -5,6 +5,8 @@
 
 #include <string>
 
+#include "core/scene/given.hpp"
+
 namespace tunica::scene {
 
 /// Puts the value of "key=value" into the tree, replacing what the file says. The value is read as
@@ -12,5 +14,9 @@ namespace tunica::scene {
 /// need no quotes. Throws InvalidInput (one line) for a key that is not declared or a table that the
 /// file has not.
 void apply_override(toml::table& root, const std::string& text, const std::string& label);
+
+/// Does the same to values that have been read, for a plain number of a key that is in no array of tables.
+/// False, with nothing done, for anything else. Throws InvalidInput for a number that the key does not allow.
+bool apply_number(GivenScene& given, const std::string& text);
 
 }  // namespace tunica::scene

@@ -27,8 +27,7 @@ TEST(LumpedRecruitment, TimesDoNotDependOnTheOutput) {
          {std::vector<std::string>{"accuracy.tolerance=1e-9", "output.interval=1e-4"},
           {"accuracy.tolerance=1e-9", "output.interval=0.0137"},
           {"accuracy.tolerance=1e-9", "output.interval=0.8"},
-          {"accuracy.tolerance=1e-6", "output.interval=1e-3"},
-          {"accuracy.tolerance=0.01", "output.interval=1e-3"}}) {
+          {"accuracy.tolerance=1e-8", "output.interval=1e-3"}}) {
       SCOPED_TRACE(overrides[0] + " " + overrides[1]);
       const auto others = times(overrides);
       ASSERT_EQ(others.size(), reference.size());

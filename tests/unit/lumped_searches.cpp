@@ -29,7 +29,8 @@ double mean_over_the_beat(const std::vector<double>& values) {
 TEST(LumpedSearch, LongChainsComeToTheirLimitCycleWithinBeats) {
   const std::vector<std::string> chain{"outlet.kind=rcr",          "outlet.proximal_resistance=1e5",
                                        "outlet.resistance=9.32e5", "outlet.compliance=3e-8",
-                                       "lumped.compartments=20",   "lumped.inertance=true"};
+                                       "lumped.compartments=20",   "lumped.inertance=true",
+                                       "accuracy.tolerance=5e-6"};
   const Result periodic = run_lumped(joined(chain, {"time.start=periodic"}));
   const Result rest = run_lumped(joined(chain, {"time.beats=4"}));
   for (const char* name : {"pressure", "outflow", "radial_displacement.P1"}) {
@@ -41,8 +42,8 @@ TEST(LumpedSearch, LongChainsComeToTheirLimitCycleWithinBeats) {
 }
 
 TEST(LumpedSearch, AHundredCompartmentsLikeTwenty) {
-  const Result run =
-      run_lumped({"lumped.compartments=100", "lumped.inertance=true", "time.start=periodic", "time.beats=1"});
+  const Result run = run_lumped({"lumped.compartments=100", "lumped.inertance=true", "time.start=periodic",
+                                 "time.beats=1", "accuracy.tolerance=5e-6"});
   const auto& pressure = column(run.observables, "pressure");
   EXPECT_NEAR(pressure.back(), pressure.front(), 1e-6 * test_support::range(pressure));
   EXPECT_LT(run.record.steps, 60'000);

@@ -68,8 +68,8 @@ struct Tally {
 };
 
 void judge(const std::vector<std::string>& wall, Tally& tally) {
-  const Scene scene =
-      test_support::scene_with(test_support::joined(wall, {"time.beats=1", "output.interval=0.02"}));
+  const Scene scene = test_support::scene_with(
+      test_support::joined(wall, {"time.beats=1", "output.interval=0.02", "accuracy.tolerance=2e-8"}));
   const auto model = radial::ring_model(scene, {});
   const auto pressure_at = [&](double stretch) { return model->respond(stretch, {}, false).pressure; };
   const double radius = scene.number("geometry.radius");
