@@ -33,14 +33,14 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Local tolerance of the integrator for a scene's tolerance. Local errors add up over some hundred steps, and
-/// the stress in fibres shows more of them than the pressure: hence the factor.
+/// Local tolerance of the integrator for a scene's tolerance. Local errors add up over some hundred steps,
+/// and the stress in fibres shows more of them than the pressure: hence the factor.
 double local_tolerance(const Scene& scene) {
   return std::clamp(2e-3 * scene.number("accuracy.tolerance"), 1e-11, 1e-4);
 }
 
-/// Rows that the quantities of the last beat are taken from: so many that the parabolas through their extremes
-/// are as good as the scene asks.
+/// Rows that the quantities of the last beat are taken from: so many that the parabolas through their
+/// extremes are as good as the scene asks.
 std::vector<observables::Stop> stops_for_answer(const Scene& scene, double period) {
   // Its error falls with the fourth power; 128 rows have 1e-4 of the range of the carotid waveform.
   const double tolerance = std::clamp(scene.number("accuracy.tolerance"), 1e-9, 1e-3);

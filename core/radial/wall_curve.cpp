@@ -148,7 +148,8 @@ std::optional<double> WallCurve::threshold_stretch(const wall::CollagenFamily<do
       const auto x = excess_along(family, ring, xi, response.states[0], response.state_rates[0]);
       const double update = -x.value / x.derivative[0];
       stretch += update;
-      // Newton's method: the next update would be about the square of this one, below what the model resolves.
+      // Newton's method: the next update would be about the square of this one, below what the model
+      // resolves.
       if (update * update < 1e-4 * model_->accuracy()) return stretch;
     }
     // Tissue whose stress jumps lingers at the threshold, which Newton's method does not foresee.

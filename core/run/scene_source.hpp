@@ -16,8 +16,8 @@ class SceneSource {
   /// Throws InvalidInput as read_scene does.
   explicit SceneSource(std::filesystem::path file, std::vector<std::string> overrides = {});
 
-  /// The scene with further overrides ("key=value"). Throws InvalidInput as read_scene does. Where all of them
-  /// are numbers of plain keys the file is not parsed again.
+  /// The scene with further overrides ("key=value"). Throws InvalidInput as read_scene does. Where all of
+  /// them are numbers of plain keys the file is not parsed again.
   Scene with(const std::vector<std::string>& overrides) const;
 
   const Scene& scene() const { return scene_; }  ///< without further overrides

@@ -57,8 +57,8 @@ Gap largest_move_but_recruitment(Result a, const Result& b) {
   return largest_move(a, b);
 }
 
-// No column is off by more than the tolerance of its range, and what is looser takes fewer steps. Their errors
-// fall with up to the sixth power of their length: 1e5 of tolerance is worth a factor of 3 at least.
+// No column is off by more than the tolerance of its range, and what is looser takes fewer steps. Their
+// errors fall with up to the sixth power of their length: 1e5 of tolerance is worth a factor of 3 at least.
 TEST_P(Tolerance, IsKeptAtEveryValueAndPaidFor) {
   const Result finest = at(1e-9);
   std::vector<long> steps;
