@@ -53,7 +53,7 @@ const Chart = (() => {
   }
 
   class Figure {
-    // spec: {id, title, unit, figure, digits, xLabel, sync, lines, caption, height, range, xRange, axis, xAxis, draw, valueAt}
+    // spec: {id, title, unit, figure, digits, xLabel, sync, lines, caption, height, range, xRange, axis, xAxis, draw, valueAt, dots}
     // lines: [{run, runLabel, part, partLabel, x, y}], run and part count the colours and dashes.
     constructor(parent, spec) {
       this.spec = spec;
@@ -92,7 +92,7 @@ const Chart = (() => {
                {...axis, size: 54, space: 34, ...spec.axis}],
         series: [{}, ...spec.lines.map(line => ({
           stroke: () => colour(line.colour), width: line.width, dash: line.dash, pxAlign: 0,
-          points: {show: line.y.length < fewest, size: 9, stroke: () => colour(line.colour), fill: () => colour(line.colour)},
+          points: {show: spec.dots || line.y.length < fewest, size: 9, stroke: () => colour(line.colour), fill: () => colour(line.colour)},
           ...(spec.draw ? {paths: () => null} : {}),
         }))],
         hooks: {setCursor: [() => this.showValues()], ready: [ready], ...(spec.draw ? {draw: [() => spec.draw(this)]} : {})},

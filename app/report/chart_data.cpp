@@ -9,8 +9,10 @@
 
 #include "app/report/html.hpp"
 #include "app/report/json_object.hpp"
+#include "app/report/labels.hpp"
 #include "app/report/sections.hpp"
 #include "core/observables/record.hpp"
+#include "core/scene/parameter.hpp"
 #include "core/units.hpp"
 
 namespace tunica::report {
@@ -123,6 +125,33 @@ void append_sensitivities(Object& run, const RunSummary& summary) {
   }
 }
 
+/// The key of numbers that alone tells the static states apart; empty where there is none.
+std::string key_of_states(const std::vector<RunSummary>& runs) {
+  std::vector<StoredResult> states;
+  for (const RunSummary& run : runs)
+    if (run.is_state) states.push_back(*run.stored);
+  if (states.size() < 2) return {};
+  const auto differences = differences_of(states);
+  if (differences.size() != 1) return {};
+  const std::string& key = differences.front().key;
+  for (const StoredResult& state : states) {
+    const auto& scene = recorded_scene(state.record);
+    const auto value = scene.find(key);
+    if (value == scene.end() || !value->is_number()) return {};
+  }
+  return key;
+}
+
+void append_setting(Object& run, const RunSummary& summary, const std::string& key) {
+  const auto* parameter = scene::find_parameter(key);
+  const std::string unit = parameter ? parameter->unit : "1";
+  const bool is_pressure = is_read_in_mmhg(key, unit);
+  Object setting(run.key("setting"));
+  setting.text("name", key);
+  setting.text("unit", is_pressure ? "mmHg" : unit == "1" ? "" : unit);
+  setting.value("value", scene_number(summary.stored->record, key) / (is_pressure ? mmhg : 1.0));
+}
+
 }  // namespace
 
 double display_unit(const Column& column) {
@@ -132,6 +161,7 @@ double display_unit(const Column& column) {
 }
 
 std::string chart_data(const std::vector<RunSummary>& runs) {
+  const std::string key = key_of_states(runs);
   std::string json;
   {
     Object all(json);
@@ -153,6 +183,7 @@ std::string chart_data(const std::vector<RunSummary>& runs) {
       append_profiles(run, "profiles", summary.stored->result.profiles, summary);
       append_profiles(run, "along", summary.stored->result.along, summary);
       append_sensitivities(run, summary);
+      if (summary.is_state && !key.empty()) append_setting(run, summary, key);
     }
     json += ']';
   }

@@ -62,8 +62,7 @@ std::string short_number(double value) {
 std::string number_text(std::string_view key, double value) {
   const auto* parameter = scene::find_parameter(key);
   const std::string unit = parameter ? parameter->unit : "1";
-  const bool is_pressure = unit == "dyn/cm2" && key.find("pressure") != std::string_view::npos;
-  if (is_pressure) return fmt::format("{}{}mmHg", short_number(value / mmhg), no_break);
+  if (is_read_in_mmhg(key, unit)) return fmt::format("{}{}mmHg", short_number(value / mmhg), no_break);
   if (unit == "deg") return short_number(value) + "°";
   if (unit == "1") return short_number(value);
   std::string kept;
@@ -165,6 +164,10 @@ bool differs_within_law(const std::vector<StoredResult>& runs, const std::vector
 }
 
 }  // namespace
+
+bool is_read_in_mmhg(std::string_view key, std::string_view unit) {
+  return unit == "dyn/cm2" && key.find("pressure") != std::string_view::npos;
+}
 
 std::vector<Difference> differences_of(const std::vector<StoredResult>& runs) {
   std::set<std::string> keys{"wall.law", "tier"};

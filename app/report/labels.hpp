@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/observables/result.hpp"
@@ -13,6 +14,9 @@ struct Difference {
   std::string key;                  ///< "wall.law", "tier", "outlet.resistance"
   std::vector<std::string> values;  ///< of each run, with unit: "80 mmHg"; "–" where the run has no such key
 };
+
+/// Whether people read a key's numbers, given in `unit`, in mmHg: pressures, but not moduli.
+bool is_read_in_mmhg(std::string_view key, std::string_view unit);
 
 /// What tells runs apart: the law, the tier, and the keys that one of their scenes sets and whose values
 /// differ, those that change the physics before those that change the numbers; what only concerns the output

@@ -83,8 +83,25 @@
       caption: without.length ? `Not shown: ${without.join("; ")} (no fibres).` : "",
     }));
   }
+  // Quantities of states against the number that alone tells them apart, at P1..P4: dots, joined in its order.
+  function statesAgainstTheirKey(spec, columns) {
+    const states = runs.filter(run => run.setting).sort((a, b) => a.setting.value - b.setting.value);
+    if (states.length < 2) return;
+    const {name, unit} = states[0].setting;
+    const lines = columns.filter(([column]) => states.some(run => run.columns[column])).map(([column, label], part) => ({
+      run: 0, runLabel: "", part, partLabel: label, x: states.map(run => run.setting.value), y: states.map(run => run.columns[column]?.[0] ?? null),
+    }));
+    if (lines.length)
+      figures.push(new Figure(document.getElementById("state-charts"), {sync: "settings", xLabel: () => unit ? `${name}, ${unit}` : name, dots: true, ...spec,
+        id: `${spec.id}-by-key`, title: `${spec.title} against ${name}`, lines}));
+  }
   function stateCharts() {
     if (!runs.some(isState)) return;
+    const byKey = [[{id: "state-pressure", title: "Pressure", unit: "mmHg", digits: 2}, [["pressure", "mid-length"], ["transmural_pressure", "transmural"]]],
+                   [{id: "state-displacement", title: "Displacement", unit: "cm", digits: 5}, atPoints("radial_displacement")],
+                   [{id: "state-mises", title: "Von Mises stress", unit: "10\u2075 dyn/cm²", digits: 3}, atPoints("von_mises")],
+                   [{id: "state-angle", title: "Fibre angle", unit: "°", digits: 2}, atPoints("fiber_angle")]];
+    for (const [spec, columns] of byKey) statesAgainstTheirKey(spec, columns);
     stateChart({id: "state-displacement", title: "Displacement", unit: "cm", digits: 5}, "radial_displacement");
     stateChart({id: "state-mises", title: "Von Mises stress", unit: "10\u2075 dyn/cm²", digits: 3}, "von_mises");
     stateChart({id: "state-angle", title: "Fibre angle", unit: "°", digits: 2}, "fiber_angle");

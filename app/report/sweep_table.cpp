@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "app/report/labels.hpp"
 #include "app/report/sections.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
@@ -90,7 +91,7 @@ std::size_t text_level(std::vector<std::string>& texts, const std::string& text)
 SweepKey key_of(const sweep::Varied& varied) {
   SweepKey key;
   key.name = varied.key;
-  const bool is_pressure = varied.unit == "dyn/cm2" && varied.key.find("pressure") != std::string::npos;
+  const bool is_pressure = is_read_in_mmhg(varied.key, varied.unit);
   key.unit = is_pressure ? "mmHg" : varied.unit;
   if (is_pressure) key.factor = 1 / mmhg;
   return key;

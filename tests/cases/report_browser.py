@@ -123,6 +123,16 @@ class Report(unittest.TestCase):
         self.assertIn("Not shown: EXP1, pressure\u00a0100\u00a0mmHg (no fibres).", self.value("document.getElementById('chart-state-angle').textContent"))
         self.assertGreater(self.dots("chart-state-displacement"), 8 * 5)  # four lie below others
 
+    def test_static_states_stand_against_what_differs(self):
+        # As for the states above, and pressure, displacement, stress and angle against the key.
+        self.opens("states-by-key", 12)
+        label = self.value("document.querySelector('#chart-state-displacement-by-key canvas').getAttribute('aria-label')")
+        self.assertIn("against inlet.pressure, mmHg", label)
+        self.assertIn("P1: 0.01600 to 0.02400", label)  # 2e-4 cm/mmHg from 80 to 120 mmHg
+        self.assertIn("mid-length: 80.00 to 120.00",
+                      self.value("document.querySelector('#chart-state-pressure-by-key canvas').getAttribute('aria-label')"))
+        self.assertGreater(self.dots("chart-state-pressure-by-key"), 4 * 5)
+
     def dots(self, figure):
         """Pixels of a chart that have the colour of its lines all around them, as in a dot and in no line."""
         return self.value(f"""(() => {{

@@ -5,6 +5,7 @@
 
 #include "app/report/report.hpp"
 #include "app/report/sweep_page.hpp"
+#include "core/units.hpp"
 #include "tests/support/bent_tube.hpp"
 #include "tests/support/fake_tier.hpp"
 #include "tests/support/made_scene.hpp"
@@ -100,6 +101,16 @@ StoredResult in_space(const char* law, const test_support::BentTube& tube) {
   return run;
 }
 
+/// Static states that one pressure tells apart, not in its order.
+std::vector<StoredResult> states_by_key() {
+  std::vector<StoredResult> states;
+  for (const double pressure : {120.0, 80.0, 100.0}) {
+    states.push_back(synthetic_state({.highest_pressure = pressure, .displacement_scale = 2e-4 * pressure}));
+    states.back().record["scene"]["inlet.pressure"] = pressure * mmhg;
+  }
+  return states;
+}
+
 /// A sweep in which two points have whole results.
 std::string sweep_page(const std::filesystem::path& folder) {
   std::filesystem::remove_all(folder);
@@ -130,6 +141,7 @@ int main(int count, char** arguments) {
       synthetic_state({.law = "EXP1+EXP2-FS", .highest_pressure = 100, .displacement_scale = 0.022}),
       synthetic_state({.law = "EXP1", .highest_pressure = 100})};
   write_whole(folder / "states.html", make_report(states));
+  write_whole(folder / "states-by-key.html", make_report(states_by_key()));
   write_whole(folder / "mixed.html", make_report({states[0], synthetic_run({})}));
   write_whole(folder / "peak.html", make_report({with_peak()}));
   write_whole(folder / "hostile.html", make_report({hostile()}));
