@@ -83,13 +83,14 @@
       caption: without.length ? `Not shown: ${without.join("; ")} (no fibres).` : "",
     }));
   }
-  // Quantities of states against the number that alone tells them apart, at P1..P4: dots, joined in its order.
+  // Quantities of states against the number that alone tells them apart, at P1..P4: dots, joined in its order. These lines
+  // belong to no single run, so that hiding one leaves them.
   function statesAgainstTheirKey(spec, columns) {
     const states = runs.filter(run => run.setting).sort((a, b) => a.setting.value - b.setting.value);
     if (states.length < 2) return;
     const {name, unit} = states[0].setting;
     const lines = columns.filter(([column]) => states.some(run => run.columns[column])).map(([column, label], part) => ({
-      run: 0, runLabel: "", part, partLabel: label, x: states.map(run => run.setting.value), y: states.map(run => run.columns[column]?.[0] ?? null),
+      run: runs.length, runLabel: "", part, partLabel: label, x: states.map(run => run.setting.value), y: states.map(run => run.columns[column]?.[0] ?? null),
     }));
     if (lines.length)
       figures.push(new Figure(document.getElementById("state-charts"), {sync: "settings", xLabel: () => unit ? `${name}, ${unit}` : name, dots: true, ...spec,

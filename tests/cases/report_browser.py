@@ -132,6 +132,9 @@ class Report(unittest.TestCase):
         self.assertIn("mid-length: 80.00 to 120.00",
                       self.value("document.querySelector('#chart-state-pressure-by-key canvas').getAttribute('aria-label')"))
         self.assertGreater(self.dots("chart-state-pressure-by-key"), 4 * 5)
+        # A line is of all states: hiding one of them hides no line.
+        self.value("document.querySelector('#run-list button').click()")
+        self.assertEqual(self.value("document.querySelectorAll('#chart-state-pressure-by-key [aria-pressed=false]').length"), 0)
 
     def dots(self, figure):
         """Pixels of a chart that have the colour of its lines all around them, as in a dot and in no line."""
