@@ -101,9 +101,9 @@ struct Integrator::Implementation {
     return 0;
   }
 
-  static int events(double t, N_Vector y, double* values, void* data) {
+  static int events(double, N_Vector y, double* values, void* data) {
     return static_cast<Implementation*>(data)->guard(
-        [&](Implementation& of) { of.system.event_values(t, N_VGetArrayPointer(y), values); });
+        [&](Implementation& of) { of.system.event_values(N_VGetArrayPointer(y), values); });
   }
 
   /// An exception must not pass through C: it becomes a recoverable error, upon which CVODES shortens

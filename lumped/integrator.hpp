@@ -28,9 +28,9 @@ struct System {
   std::function<void(double t, const double* y, const double* dy, int k, double* result)> rate_derivative;
   /// Told now and then how far an integration has come.
   std::function<void(double t, const IntegratorStatistics& so_far)> progress;
-  /// Functions of t and y whose zeros are reported, with their number.
+  /// Functions of y whose zeros are reported, with their number.
   int events = 0;
-  std::function<void(double t, const double* y, double* values)> event_values;
+  std::function<void(const double* y, double* values)> event_values;
 };
 
 /// A zero of event function `index`; it grows through zero when `rising`.

@@ -42,9 +42,9 @@ double local_tolerance(const Scene& scene) {
 /// Rows that the quantities of the last beat are taken from: so many that the parabolas through their
 /// extremes are as good as the scene asks.
 std::vector<observables::Stop> stops_for_answer(const Scene& scene, double period) {
-  // Its error falls with the fourth power; 128 rows have 1e-4 of the range of the carotid waveform.
+  // Its error falls with the fourth power; that of 192 rows is 1e-4 of the range of H, the sharpest of all.
   const double tolerance = std::clamp(scene.number("accuracy.tolerance"), 1e-9, 1e-3);
-  const int rows = 4 * static_cast<int>(std::ceil(32 * std::pow(1e-3 / tolerance, 0.25)));
+  const int rows = 4 * static_cast<int>(std::ceil(48 * std::pow(1e-3 / tolerance, 0.25)));
   const double begin = static_cast<double>(scene.integer("time.beats") - 1) * period;
   std::vector<observables::Stop> stops;
   for (int k = 0; k <= rows; ++k) {
@@ -278,17 +278,7 @@ class LumpedRun final : public TierRun {
       network_.rate_derivative(t, y, dy, k, result);
     };
     s.events = log_.events();
-    s.event_values = [this](double, const double* y, double* values) { log_.event_values(y, values); };
-    if (is_answer_) {
-      // Where the lumen turns from opening to closing, or back, is an extreme of all that goes with it.
-      s.events += 1;
-      s.event_values = [this, rates = std::vector<double>(s.unknowns)](double t, const double* y,
-                                                                       double* values) mutable {
-        log_.event_values(y, values);
-        network_.rate(t, y, rates.data());
-        values[log_.events()] = network_.mid_growth(rates.data());
-      };
-    }
+    s.event_values = [this](const double* y, double* values) { log_.event_values(y, values); };
     return s;
   }
 
@@ -327,8 +317,8 @@ class LumpedRun final : public TierRun {
       while (stop.time - integrator.time() > round_off) {
         const auto crossings = advance(integrator, std::min(stop.time, *next_end));
         for (const Crossing& crossing : crossings) {
-          if (crossing.index < log_.events()) log_.record(integrator, crossing);
-          // Recruitment all but jumps there, and what goes with the lumen has its extremes where it turns.
+          log_.record(integrator, crossing);
+          // Recruitment all but jumps there.
           const bool between_rows = stop.is_row && !stop.begins_last_beat && time_ < stop.time;
           if (is_answer_ && between_rows && time_ > last_row()) append_row(integrator, time_);
         }

@@ -220,19 +220,10 @@ void Network::rate_of(const NetworkNumbers<P>& n, double time, const P* y, int k
 }
 
 template <class P>
-P Network::mid_growth_of(const P* y) const {
+P Network::mid_strain_of(const P* y) const {
   // An even number of compartments has its middle between two of them.
   const int lower = (compartments_ - 1) / 2, upper = compartments_ / 2;
-  return P(0.5 * (y[area_index(lower)] + y[area_index(upper)]));
-}
-
-double Network::mid_growth(const double* y) const {
-  return mid_growth_of(y);
-}
-
-template <class P>
-P Network::mid_strain_of(const P* y) const {
-  return strain_of(mid_growth_of(y));
+  return strain_of(P(0.5 * (y[area_index(lower)] + y[area_index(upper)])));
 }
 
 template <class P>

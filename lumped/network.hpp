@@ -78,8 +78,6 @@ class Network {
   Outside<Dual<double, 1>> outside_derivative(double time, const double* y, const double* dy, int k) const;
   /// The compartments from the inlet to the outlet.
   std::vector<Compartment> inside(double time, const double* y) const;
-  /// Growth of the lumen's area at mid-length, or its rate for rates of the unknowns.
-  double mid_growth(const double* y) const;
   /// Of the section at mid-length.
   radial::LumenStretch mid_stretch(const double* y) const;
   /// Of the compartment that is opened most.
@@ -107,8 +105,6 @@ class Network {
   void rate_of(const NetworkNumbers<P>& n, double time, const P* y, int k, P* result) const;
   template <class P>
   Outside<P> outside_of(const NetworkNumbers<P>& n, double time, const P* y, int k) const;
-  template <class P>
-  P mid_growth_of(const P* y) const;
   template <class P>
   P mid_strain_of(const P* y) const;
 

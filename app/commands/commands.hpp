@@ -46,6 +46,8 @@ struct SweepArguments {
   std::string points;  ///< CSV file
   std::uint64_t seed = 0;
   bool gradients = false, keep_runs = false, timings = false;
+  bool indices = false;
+  double until = 0;  ///< width of intervals of indices; 0: as many points as --sample says
   int jobs = 0;  ///< 0: all cores
   int ranks = 1;
   std::string shard;  ///< "1/4"; empty: all, or what a Slurm array says

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "app/commands/commands.hpp"
@@ -19,6 +20,7 @@
 #include "core/scene/parameter.hpp"
 #include "core/threads.hpp"
 #include "verification/sweep/campaign.hpp"
+#include "verification/sweep/index_table.hpp"
 
 namespace tunica {
 
@@ -26,7 +28,25 @@ namespace fs = std::filesystem;
 
 namespace {
 
+/// Groups of a sample for indices; `times` as many as --sample says.
+std::unique_ptr<sweep::Points> points_for_indices(const SweepArguments& arguments, std::uint64_t times) {
+  if (arguments.sample.empty() || arguments.vary.empty())
+    throw InvalidInput("sweep --indices: draw points by --vary KEY=LO:HI ... --sample sobol:N");
+  const auto [sampling, count] = sweep::parse_sample(arguments.sample);
+  if (arguments.until > 0 && sampling == uncertainty::Sampling::latin_hypercube)
+    throw InvalidInput("sweep --until: a Latin hypercube does not grow; take --sample sobol:N or random:N");
+  if (arguments.until > 0 && !arguments.shard.empty())
+    throw InvalidInput(
+        "sweep --until: a shard does not know the others; compute all with one, or leave out "
+        "--until");
+  if (arguments.until < 0) throw InvalidInput("sweep --until: the width of an interval is above 0");
+  std::vector<sweep::Axis> axes;
+  for (const std::string& text : arguments.vary) axes.push_back(sweep::parse_axis(text));
+  return sweep::pick_freeze_points(std::move(axes), sampling, times * count, arguments.seed);
+}
+
 std::unique_ptr<sweep::Points> points_of(const SweepArguments& arguments) {
+  if (arguments.indices) return points_for_indices(arguments, 1);
   const int ways = (!arguments.vary.empty()) + (!arguments.points.empty());
   if (ways != 1) throw InvalidInput("sweep: say what varies by --vary KEY=LO:HI:N, or by --points FILE.csv");
   if (!arguments.points.empty()) {
@@ -55,6 +75,19 @@ run::Question question_of(const SweepArguments& arguments, const sweep::Points& 
   if (question.keys.empty())
     throw InvalidInput("--gradients: none of the keys that vary holds a number that has derivatives");
   return question;
+}
+
+/// indices.csv of a whole sweep that is for them; the widest interval.
+double make_indices(const sweep::SweepSummary& summary, const fs::path& folder, bool quiet) {
+  if (summary.interrupted || summary.done == 0) return 0;
+  const sweep::IndexSummary indices = sweep::write_indices(folder);
+  if (quiet) return indices.widest;
+  if (indices.lost > 0)
+    spdlog::warn("Sobol' indices: {} of {} groups have a point without a result and are left out",
+                 indices.lost, indices.groups);
+  spdlog::info("Sobol' indices of {} groups: the widest 95 % interval is {:.3g}", indices.groups,
+               indices.widest);
+  return indices.widest;
 }
 
 /// Writes the report of what there is and tells how it ended.
@@ -89,9 +122,10 @@ int sweep_command(const SweepArguments& arguments, const Program& program) {
   if (!arguments.merge.empty()) {
     if (!arguments.scene.empty() || arguments.out.empty())
       throw InvalidInput("sweep --merge: name the folders of the shards and --out, and nothing else");
-    return conclude(
-        sweep::merge({arguments.merge.begin(), arguments.merge.end()}, arguments.out, arguments.replace),
-        arguments.out, arguments.quiet);
+    const auto summary =
+        sweep::merge({arguments.merge.begin(), arguments.merge.end()}, arguments.out, arguments.replace);
+    if (sweep::has_indices(arguments.out)) make_indices(summary, arguments.out, arguments.quiet);
+    return conclude(summary, arguments.out, arguments.quiet);
   }
   if (arguments.scene.empty()) throw InvalidInput("sweep: name a scene (see tunica sweep --help)");
   constexpr int most = 1024;
@@ -134,9 +168,26 @@ int sweep_command(const SweepArguments& arguments, const Program& program) {
     if (!std::exchange(begun, true)) computation_begins();
     display.show(progress);
   };
-  const sweep::Campaign campaign{door, arguments.tier,      *points,          question, shard,
-                                 jobs, arguments.keep_runs, arguments.timings};
-  return conclude(sweep::run_sweep(campaign, folder, control), folder, arguments.quiet);
+  const std::optional<double> until = arguments.until > 0 ? std::optional(arguments.until) : std::nullopt;
+  const auto compute = [&](sweep::Points& of) {
+    const sweep::Campaign campaign{
+        door, arguments.tier, of, question, shard, jobs, arguments.keep_runs, arguments.timings, until};
+    return sweep::run_sweep(campaign, folder, control);
+  };
+  sweep::SweepSummary summary = compute(*points);
+  if (arguments.indices && shard.is_whole()) {
+    // Each time as many points again as there are, up to where intervals would take days to halve.
+    constexpr std::uint64_t most_points = std::uint64_t{1} << 24;
+    std::uint64_t times = 1;
+    while (make_indices(summary, folder, arguments.quiet) > arguments.until && until &&
+           summary.count < most_points) {
+      times *= 2;
+      control.resume = true;
+      control.replace = false;
+      summary = compute(*points_for_indices(arguments, times));
+    }
+  }
+  return conclude(summary, folder, arguments.quiet);
 }
 
 }  // namespace tunica

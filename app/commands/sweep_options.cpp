@@ -12,6 +12,8 @@ constexpr const char* sweep_examples =
   tunica sweep scenes/cylinder.toml --vary outlet.resistance=5e5:2e6:15:log --vary tether.stiffness=3e6:3e7:15:log
   tunica sweep scenes/cylinder.toml --vary "wall.activation_stretch=1.2:1.7" --sample sobol:1000 --tier lumped
   tunica sweep scenes/cylinder.toml --vary "outlet.resistance=lognormal(1e6, 1e5)" --sample lhs:200 --gradients
+  tunica sweep scenes/cylinder.toml --vary outlet.resistance=5e5:2e6 --vary tether.stiffness=3e6:3e7:log
+               --sample sobol:256 --indices --until 0.05 --tier lumped
   tunica sweep scenes/cylinder.toml --points mine.csv --quantity pressure.max --quantity von_mises.max
   tunica sweep scenes/cylinder.toml --vary ... --shard 1/4 --out part1
   tunica sweep --merge part1 part2 part3 part4 --out all
@@ -47,6 +49,13 @@ CLI::App* add_sweep_command(CLI::App& app, SweepArguments& arguments) {
          "OBSERVABLE.STATISTIC of the last beat, such as pressure.max (default: all); may be repeated", "Q")
       ->take_all()
       ->allow_extra_args(false);
+  auto* indices =
+      command->add_flag("--indices", arguments.indices,
+                        "First and total Sobol' indices with 95 % intervals, in indices.csv: N of "
+                        "--sample counts groups of d + 2 points for d keys");
+  option("--until", arguments.until,
+         "With --indices: double the sample until every interval is at most so wide (0.02)", "WIDTH")
+      ->needs(indices);
   command->add_flag("--gradients", arguments.gradients, "Add the derivatives by the keys that vary");
   option("--jobs", arguments.jobs, "Points computed at once (default: as many as there are cores)", "N");
   option("--ranks", arguments.ranks, "Processes of each 3D point, by mpirun", "N");

@@ -361,6 +361,58 @@ TEST_F(Sweep, ATableThatAnotherProgramLocksIsToldOf) {
 
 // The derivative at the middle of three points against the difference of the outer ones. What is left is of
 // second order in the step of 0.1 %, and the tolerance of the integration.
+// The pressure's maximum is the resistance's doing, and the tether governs how far the lumen opens; shards make
+// the same table, and a width that is asked for is reached by growing the sample.
+TEST_F(Sweep, IndicesSayWhatGoverns) {
+  const Texts sample{
+      "--vary",   "outlet.resistance=5e5:2e6", "--vary", "tether.stiffness=3e6:3e7", "--sample", "sobol:64",
+      "--indices"};
+  ASSERT_EQ(sweep("whole", sample).code, 0);
+  const std::string indices = read_text(path("whole/indices.csv"));
+  EXPECT_EQ(indices.substr(0, indices.find('\n')),
+            "quantity,parameter,first,first_low,first_high,total,total_low,total_high");
+  const auto value = [&](const std::string& row, int column) {
+    std::size_t at = indices.find('\n' + row) + 1;
+    for (int k = 0; k < column; ++k) at = indices.find(',', at) + 1;
+    return std::stod(indices.substr(at));
+  };
+  EXPECT_GT(value("pressure.max,outlet.resistance", 5), 0.9);
+  EXPECT_LT(value("pressure.max,tether.stiffness", 5), 0.1);
+  EXPECT_LT(value("pressure.max,outlet.resistance", 3), value("pressure.max,outlet.resistance", 4));
+  EXPECT_EQ(table("whole").rows(), 64U * 4);
+
+  for (const char* part : {"1", "2"})
+    ASSERT_EQ(sweep(std::string("part") + part, joined(sample, {"--shard", std::string(part) + "/2"})).code,
+              0);
+  ASSERT_EQ(test_support::tunica(
+                {"sweep", "--quiet", "--out", path("merged"), "--merge", path("part1"), path("part2")})
+                .code,
+            0);
+  EXPECT_EQ(read_text(path("merged/indices.csv")), indices);
+
+  ASSERT_EQ(sweep("until", joined(sample, {"--until", "0.5"})).code, 0);
+  const auto grown = table("until").rows();
+  EXPECT_GT(grown, 64U * 4);
+  // What it has grown to is the same as if it had been asked for.
+  Texts all = sample;
+  all[5] = "sobol:" + std::to_string(grown / 4);
+  ASSERT_EQ(sweep("at once", all).code, 0);
+  EXPECT_EQ(csv("until"), csv("at once"));
+  EXPECT_EQ(read_text(path("until/indices.csv")), read_text(path("at once/indices.csv")));
+
+  for (const auto& [more, why] : std::vector<std::pair<Texts, std::string>>{
+           {{"--vary", "outlet.resistance=1e6:2e6:3", "--indices"}, "--sample sobol:N"},
+           {{"--vary", "outlet.resistance=1e6:2e6", "--sample", "lhs:8", "--indices", "--until", "0.1"},
+            "does not grow"},
+           {{"--vary", "outlet.resistance=1e6:2e6", "--sample", "sobol:8", "--until", "0.1"}, "--indices"},
+           {{"--vary", "outlet.resistance=1e6:2e6", "--sample", "sobol:8", "--indices", "--until", "-1"},
+            "above 0"}}) {
+    const Ended refused = sweep("refused", more);
+    EXPECT_EQ(refused.code, 2) << refused.errors;
+    EXPECT_NE(refused.errors.find(why), std::string::npos) << refused.errors;
+  }
+}
+
 TEST_F(Sweep, GradientsAreThoseOfTheTable) {
   // Differences of a thousandth show the steps of looser tolerances.
   ASSERT_EQ(sweep("slope", {"--vary", "outlet.resistance=0.999e6:1.001e6:3", "--gradients", "--set",

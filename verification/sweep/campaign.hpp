@@ -43,6 +43,8 @@ struct Campaign {
   int jobs = 1;
   bool keep_runs = false;  ///< each point's whole result in FOLDER/points/NUMBER
   bool timings = false;    ///< in sweep.csv
+  /// Width of intervals that the number of points is to reach, which then does not tell sweeps apart.
+  std::optional<double> until = {};
 };
 
 /// How a sweep goes on.

@@ -69,34 +69,30 @@ class Grid final : public Points {
   std::uint64_t count_ = 1;
 };
 
-class Sample final : public Points {
+/// Axes that a sample can be drawn of. Throws InvalidInput for others.
+std::vector<Axis> sampled(std::vector<Axis> axes) {
+  for (const Axis& axis : axes) {
+    if (!axis.marginal)
+      throw InvalidInput(
+          fmt::format("--vary {}: values of a grid; with --sample write {}=LO:HI or a "
+                      "distribution",
+                      axis.key, axis.key));
+    if (scene::find_parameter(axis.key)->kind == scene::Kind::integer)
+      throw InvalidInput(
+          fmt::format("--vary {}: whole numbers are not drawn; take a grid or --points", axis.key));
+  }
+  return axes;
+}
+
+class Sample : public Points {
  public:
   Sample(std::vector<Axis> axes, uncertainty::Sampling sampling, std::uint64_t count, std::uint64_t seed)
-      : axes_(std::move(axes)),
-        keys_(keys_of(axes_)),
-        sampling_(sampling),
-        seed_(seed),
-        design_(sampling, count, static_cast<int>(axes_.size()), seed),
-        coordinates_(axes_.size()) {
-    for (const Axis& axis : axes_) {
-      if (!axis.marginal)
-        throw InvalidInput(
-            fmt::format("--vary {}: values of a grid; with --sample write {}=LO:HI or a "
-                        "distribution",
-                        axis.key, axis.key));
-      if (scene::find_parameter(axis.key)->kind == scene::Kind::integer)
-        throw InvalidInput(
-            fmt::format("--vary {}: whole numbers are not drawn; take a grid or --points", axis.key));
-    }
-  }
+      : Sample(std::move(axes), sampling, count, seed, 1) {}
   const std::vector<Varied>& keys() const override { return keys_; }
   std::uint64_t count() const override { return design_.count(); }
   std::vector<std::string> values(std::uint64_t point) override {
     design_.point(point, coordinates_.data());
-    std::vector<std::string> all;
-    for (std::size_t k = 0; k < axes_.size(); ++k)
-      all.push_back(value_text(axes_[k].marginal->quantile(coordinates_[k])));
-    return all;
+    return values_at(coordinates_.data());
   }
   Json describe() const override {
     Json axes = Json::array();
@@ -105,13 +101,55 @@ class Sample final : public Points {
     return {{"kind", uncertainty::name_of(sampling_)}, {"seed", seed_}, {"parameters", std::move(axes)}};
   }
 
- private:
+ protected:
+  /// Of a design with so many coordinates for each axis.
+  Sample(std::vector<Axis> axes, uncertainty::Sampling sampling, std::uint64_t count, std::uint64_t seed,
+         int places)
+      : axes_(sampled(std::move(axes))),
+        keys_(keys_of(axes_)),
+        sampling_(sampling),
+        seed_(seed),
+        design_(sampling, count, places * static_cast<int>(axes_.size()), seed),
+        coordinates_(static_cast<std::size_t>(places) * axes_.size()) {}
+
+  std::vector<std::string> values_at(const double* coordinates) const {
+    std::vector<std::string> all;
+    for (std::size_t k = 0; k < axes_.size(); ++k)
+      all.push_back(value_text(axes_[k].marginal->quantile(coordinates[k])));
+    return all;
+  }
+
   std::vector<Axis> axes_;
   std::vector<Varied> keys_;
   uncertainty::Sampling sampling_;
   std::uint64_t seed_;
   uncertainty::Design design_;
   std::vector<double> coordinates_;
+};
+
+class PickFreezeSample final : public Sample {
+ public:
+  PickFreezeSample(std::vector<Axis> axes, uncertainty::Sampling sampling, std::uint64_t groups,
+                   std::uint64_t seed)
+      : Sample(std::move(axes), sampling, groups, seed, 2) {}
+  std::uint64_t count() const override { return design_.count() * group_size(); }
+  std::vector<std::string> values(std::uint64_t point) override {
+    const std::size_t inputs = axes_.size();
+    design_.point(point / group_size(), coordinates_.data());
+    const std::uint64_t place = point % group_size();
+    std::vector<double> at(coordinates_.begin(), coordinates_.begin() + static_cast<std::ptrdiff_t>(inputs));
+    for (std::size_t k = 0; k < inputs; ++k)
+      if (place == 1 || place == k + 2) at[k] = coordinates_[inputs + k];
+    return values_at(at.data());
+  }
+  Json describe() const override {
+    Json all = Sample::describe();
+    all["pick_freeze"] = true;
+    return all;
+  }
+
+ private:
+  std::uint64_t group_size() const { return axes_.size() + 2; }
 };
 
 class List final : public Points {
@@ -235,6 +273,11 @@ std::unique_ptr<Points> grid_points(std::vector<Axis> axes) {
 std::unique_ptr<Points> sample_points(std::vector<Axis> axes, uncertainty::Sampling sampling,
                                       std::uint64_t count, std::uint64_t seed) {
   return std::make_unique<Sample>(std::move(axes), sampling, count, seed);
+}
+
+std::unique_ptr<Points> pick_freeze_points(std::vector<Axis> axes, uncertainty::Sampling sampling,
+                                           std::uint64_t groups, std::uint64_t seed) {
+  return std::make_unique<PickFreezeSample>(std::move(axes), sampling, groups, seed);
 }
 
 std::unique_ptr<Points> list_points(const std::filesystem::path& file) {

@@ -39,6 +39,11 @@ std::unique_ptr<Points> grid_points(std::vector<Axis> axes);
 std::unique_ptr<Points> sample_points(std::vector<Axis> axes, uncertainty::Sampling sampling,
                                       std::uint64_t count, std::uint64_t seed);
 
+/// A sample for Sobol' indices: `groups` of d + 2 points each for d axes, one after the other. Of two
+/// independent points A and B the group has A, B, and for each axis A with that axis from B.
+std::unique_ptr<Points> pick_freeze_points(std::vector<Axis> axes, uncertainty::Sampling sampling,
+                                           std::uint64_t groups, std::uint64_t seed);
+
 /// Reads "sobol:N", "lhs:N" or "random:N".
 std::pair<uncertainty::Sampling, std::uint64_t> parse_sample(const std::string& text);
 

@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Times sweeps of the paper's artery: bench_sweep.py PROGRAM (see tools/bench-sweep)."""
+
+import csv
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import time
+
+SCENE = "scenes/cylinder.toml"
+RANGES = {"outlet.resistance": "5e5:2e6", "tether.stiffness": "3e6:3e7", "wall.activation_stretch": "1.2:1.7"}
+OBSERVABLES = ["pressure", "outflow", "outlet_pressure", "transmural_pressure"] + [
+    f"{name}.P{point}"
+    for name in ("radial_displacement", "fiber_angle", "fiber_stretch", "von_mises")
+    for point in (1, 2, 3, 4)
+]
+EXTREMES = [f"{name}.{end}" for name in OBSERVABLES for end in ("max", "min")]
+
+
+def sweep(program, folder, *more):
+    """Seconds, processor seconds and peak memory (MiB) of a sweep."""
+    command = [program, "sweep", SCENE, "--quiet", "--replace", "--out", folder, *more]
+    start = time.perf_counter()
+    process = subprocess.Popen(command)
+    _, status, usage = os.wait4(process.pid, 0)
+    if status != 0:
+        sys.exit(f"{' '.join(command)} failed")
+    return time.perf_counter() - start, usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024
+
+
+def rows(folder):
+    with open(pathlib.Path(folder, "sweep.csv"), encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+def vary(counts=None):
+    arguments = []
+    for key, span in RANGES.items():
+        suffix = f":{counts[key]}" if counts else ""
+        arguments += ["--vary", f"{key}={span}{suffix}"]
+    return arguments
+
+
+def asked(quantities):
+    return [word for name in quantities for word in ("--quantity", name)]
+
+
+def largest_error(program, folder):
+    """Of all extremes of 40 points at 0.1 %, over what the observable ranges over in the beat."""
+    tables = []
+    for tolerance in ("1e-9", "1e-3"):
+        sweep(program, folder, *vary(), "--sample", "sobol:40", "--tier", "lumped", *asked(EXTREMES),
+              "--set", f"accuracy.tolerance={tolerance}")
+        tables.append(rows(folder))
+    worst = (0.0, "")
+    for exact, found in zip(*tables):
+        for head in exact:
+            if ".max[" not in head:
+                continue
+            low = head.replace(".max[", ".min[")
+            span = float(exact[head]) - float(exact[low])
+            for end in (head, low):
+                if span > 0:
+                    worst = max(worst, (abs(float(found[end]) - float(exact[end])) / span, end))
+    return worst
+
+
+def main():
+    program = sys.argv[1]
+    at_bar = ["--tier", "lumped", "--set", "accuracy.tolerance=1e-3"]
+    grid = dict(zip(RANGES, (15, 15, 13)))
+    with tempfile.TemporaryDirectory() as folder:
+        studies = [
+            ("0D, grid 15 x 15 x 13, all extremes", 15 * 15 * 13, [*vary(grid), *at_bar, *asked(EXTREMES)]),
+            ("0D, Sobol' sample, all extremes", 20_000,
+             [*vary(), "--sample", "sobol:20000", *at_bar, *asked(EXTREMES)]),
+            ("2D at 1 %, Sobol' sample", 100, [*vary(), "--sample", "sobol:100", "--tier", "axisym"]),
+        ]
+        for name, points, arguments in studies:
+            wall, processor, memory = sweep(program, folder, *arguments)
+            print(f"{name}: {points} points in {wall:.2f} s ({processor:.2f} s of processors), "
+                  f"{points / wall:.0f} a second, {memory:.0f} MiB", flush=True)
+        error, where = largest_error(program, folder)
+        print(f"largest error of an extreme at 0.1 %: {error:.2e} of its range ({where})")
+
+
+if __name__ == "__main__":
+    main()
