@@ -48,7 +48,7 @@ struct SweepArguments {
   bool gradients = false, keep_runs = false, timings = false;
   bool indices = false;
   double until = 0;  ///< width of intervals of indices; 0: as many points as --sample says
-  int jobs = 0;  ///< 0: all cores
+  int jobs = 0;      ///< 0: all cores
   int ranks = 1;
   std::string shard;  ///< "1/4"; empty: all, or what a Slurm array says
   std::vector<std::string> merge;
