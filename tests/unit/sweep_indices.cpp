@@ -106,8 +106,8 @@ std::vector<double> coverage(const Function& function, const Exact& exact, Sampl
 }  // namespace
 
 // In at least 93 % of 200 repetitions, seeds 1 to 200: of Sobol's sequence, which is the one that samples of
-// indices are meant for, each index by itself. Of others all together, and each by no less than three standard
-// deviations (1.5 %) of such a count below 95 %.
+// indices are meant for, each index by itself. Of others all together, and each by no less than three
+// standard deviations (1.5 %) of such a count below 95 %.
 TEST(SobolIndices, IntervalsHoldTheIndicesAsOftenAsTheySay) {
   for (const Sampling sampling : {Sampling::random, Sampling::sobol, Sampling::latin_hypercube}) {
     for (const auto& [name, function, exact] :

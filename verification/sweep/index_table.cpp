@@ -45,7 +45,8 @@ IndexSummary write_indices(const std::filesystem::path& folder) {
   const std::uint64_t points = campaign.at("points"), groups = points / (inputs + 2);
   IndexSummary summary{0, groups, 0};
   std::string text = "quantity,parameter,first,first_low,first_high,total,total_low,total_high\n";
-  // Quantities are gone through in batches, so that memory does not grow with both their number and the points'.
+  // Quantities are gone through in batches, so that memory does not grow with both their number and the
+  // points'.
   constexpr std::uint64_t most_numbers = 8'000'000;
   const std::size_t batch =
       std::max<std::size_t>(1, static_cast<std::size_t>(most_numbers / std::max<std::uint64_t>(points, 1)));

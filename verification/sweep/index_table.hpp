@@ -15,9 +15,9 @@ struct IndexSummary {
                 lost = 0;  ///< points of a group count together: those without all results are lost
 };
 
-/// Writes indices.csv of a sweep whose points are a pick-freeze sample: first and total Sobol' indices of each
-/// quantity by each key, with 95 % intervals (uncertainty::sobol_indices); empty cells for quantities that the
-/// law or tier has not or that do not vary. Throws InvalidInput for other sweeps, OutputFailure.
+/// Writes indices.csv of a sweep whose points are a pick-freeze sample: first and total Sobol' indices of
+/// each quantity by each key, with 95 % intervals (uncertainty::sobol_indices); empty cells for quantities
+/// that the law or tier has not or that do not vary. Throws InvalidInput for other sweeps, OutputFailure.
 IndexSummary write_indices(const std::filesystem::path& folder);
 
 /// Whether a folder's sweep is of that kind.
