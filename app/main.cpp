@@ -9,8 +9,8 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <stdexcept>
 
+#include "app/full3d_by_name.hpp"
 #include "app/launch.hpp"
 #include "app/program.hpp"
 #include "app/tiers.hpp"
@@ -21,22 +21,10 @@ namespace {
 
 using namespace tunica;
 
-/// The 3D tier by name: what it is for, and what it cannot do.
-class Full3dByName final : public Tier {
- public:
-  std::string_view name() const override { return full3d::tier_name; }
-  bool computes() const override { return false; }
-  std::string refusal(const Scene& scene) const override { return full3d::refusal(scene); }
-  bool suits(const Scene& scene) const override { return full3d::suits(scene); }
-  std::unique_ptr<TierRun> prepare(const Scene&) const override {
-    throw std::logic_error("the 3D tier is computed by tunica-full3d");
-  }
-};
-
 class LightProgram final : public Program {
  public:
   explicit LightProgram(char** argv) : argv_(argv), tiers_(light_tiers()) {
-    tiers_.push_back(std::make_unique<Full3dByName>());
+    tiers_.push_back(full3d_by_name());
   }
   const TierList& tiers() const override { return tiers_; }
 
