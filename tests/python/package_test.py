@@ -122,6 +122,15 @@ class Results(unittest.TestCase):
         with self.assertRaises(tunica.SolverFailure):
             tunica.ask(hopeless, ["pressure.max"])
 
+    @unittest.skipUnless("TUNICA_FULL3D" in os.environ, "the 3D tier is not built")
+    def test_the_program_computes_in_space(self):
+        scene = tunica.Scene(cylinder, {"time.beats": 1, "accuracy.tolerance": "5%"})
+        peaks = {tier: tunica.run(scene, tier).observables["pressure"].max() for tier in ("full3d", "axisym")}
+        # Both compute the same equations, each to 5 %.
+        self.assertAlmostEqual(peaks["full3d"] / peaks["axisym"], 1, delta=0.1)
+        with self.assertRaisesRegex(tunica.InvalidInput, "full3d"):
+            tunica.run(scene, "full4d")
+
     def test_without_pandas_there_are_arrays(self):
         text = ("import sys; sys.modules['pandas'] = None; import tunica; "
                 f"table = tunica.read({str(self.out)!r}).observables; "
@@ -251,6 +260,20 @@ class Interpreter(unittest.TestCase):
         other.join()
         # A lock held for whole steps of the run would leave a handful.
         self.assertGreater(counted, 50)
+
+    def test_control_c_ends_many_points(self):
+        sent = []
+
+        def interrupt(progress):
+            self.assertEqual(progress.end_time, 500)
+            if not sent:
+                sent.append(time.monotonic())
+                os.kill(os.getpid(), signal.SIGINT)
+
+        with self.assertRaises(KeyboardInterrupt):
+            tunica.evaluate(tunica.Scene(cylinder), ["outlet.resistance"], np.linspace(5e5, 1.2e6, 500)[:, None],
+                            ["pressure.max"], "axisym", progress=interrupt)
+        self.assertLess(time.monotonic() - sent[0], self.a_moment)
 
     def test_an_interrupted_run_is_kept_and_gone_on_with(self):
         scene = tunica.Scene(cylinder, {"time.beats": 1})
