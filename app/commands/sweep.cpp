@@ -4,6 +4,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -179,13 +180,19 @@ int sweep_command(const SweepArguments& arguments, const Program& program) {
     // Each time as many points again as there are, up to where intervals would take days to halve.
     constexpr std::uint64_t most_points = std::uint64_t{1} << 24;
     std::uint64_t times = 1;
-    while (make_indices(summary, folder, arguments.quiet) > arguments.until && until &&
-           summary.count < most_points) {
+    double widest = make_indices(summary, folder, arguments.quiet);
+    while (until && widest > *until && summary.count < most_points) {
       times *= 2;
       control.resume = true;
       control.replace = false;
       summary = compute(*points_for_indices(arguments, times));
+      widest = make_indices(summary, folder, arguments.quiet);
     }
+    if (until && widest > *until)
+      spdlog::warn(
+          "--until {:g} is not reached: with {} points the widest interval is {:.3g}; ask for fewer "
+          "quantities with --quantity",
+          *until, summary.count, widest);
   }
   return conclude(summary, folder, arguments.quiet);
 }

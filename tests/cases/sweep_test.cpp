@@ -400,6 +400,12 @@ TEST_F(Sweep, IndicesSayWhatGoverns) {
   EXPECT_EQ(csv("until"), csv("at once"));
   EXPECT_EQ(read_text(path("until/indices.csv")), read_text(path("at once/indices.csv")));
 
+  // Too few groups for an interval are no reason to stop.
+  all[5] = "sobol:2";
+  ASSERT_EQ(sweep("few", joined(all, {"--until", "1.5"})).code, 0);
+  EXPECT_GT(table("few").rows(), 4U * 4);
+  EXPECT_EQ(read_text(path("few/indices.csv")).find(",,"), std::string::npos);
+
   for (const auto& [more, why] : std::vector<std::pair<Texts, std::string>>{
            {{"--vary", "outlet.resistance=1e6:2e6:3", "--indices"}, "--sample sobol:N"},
            {{"--vary", "outlet.resistance=1e6:2e6", "--sample", "lhs:8", "--indices", "--until", "0.1"},

@@ -152,6 +152,16 @@ TEST(SobolIndices, LeaveOutGroupsWithoutAValueAndQuantitiesThatDoNotVary) {
   EXPECT_TRUE(std::isnan(sobol_indices({{1, 2}, {2, 3}, {{1, 1}}})[0].total.low));
 }
 
+// Where so few groups differ that a replication may have none of them, nobody knows how sure the index is.
+TEST(SobolIndices, HaveNoIntervalWhereTooFewGroupsDiffer) {
+  PickFreeze outputs = outputs_of([](const std::vector<double>&) { return 0.0; }, 2, 64, Sampling::random, 1);
+  outputs.a[5] = outputs.mixed[1][5] = 1;
+  const auto found = sobol_indices(outputs);
+  EXPECT_FALSE(std::isnan(found[0].total.value));
+  EXPECT_TRUE(std::isnan(found[0].total.low));
+  EXPECT_TRUE(std::isnan(found[0].first.high));
+}
+
 // What is added to all outputs, and their unit, change nothing.
 TEST(SobolIndices, DoNotDependOnOffsetAndUnit) {
   const auto plain = sobol_indices(outputs_of(g_function, 4, 128, Sampling::random, 3));

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "core/error.hpp"
 #include "verification/sweep/campaign.hpp"
@@ -65,13 +66,18 @@ IndexSummary write_indices(const std::filesystem::path& folder) {
       const std::uint64_t whole = uncertainty::whole_groups(of);
       // Of a quantity that no point has, as fibres of a law without any, nothing is lost.
       if (whole > 0) summary.lost = std::max(summary.lost, groups - whole);
+      constexpr double unknown = std::numeric_limits<double>::infinity();
+      if (whole > 0 && whole < uncertainty::fewest_groups) summary.widest = unknown;
       for (std::size_t k = 0; k < inputs; ++k) {
         const auto& [one, all] = found[k];
         text += fmt::format("{},{},{},{},{},{},{},{}\n", table.numbers()[q].name, table.keys()[k].key,
                             cell(one.value), cell(one.low), cell(one.high), cell(all.value), cell(all.low),
                             cell(all.high));
-        if (!observables::is_none(one.value))
-          summary.widest = std::max({summary.widest, one.high - one.low, all.high - all.low});
+        if (observables::is_none(one.value)) continue;
+        for (const auto& estimate : {one, all})
+          summary.widest = observables::is_none(estimate.low)
+                               ? unknown
+                               : std::max(summary.widest, estimate.high - estimate.low);
       }
     }
   }

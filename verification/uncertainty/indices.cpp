@@ -76,9 +76,8 @@ std::vector<SobolIndices> sobol_indices(const PickFreeze& outputs, std::uint64_t
     variance += group.squares / count;
     groups.push_back(std::move(group));
   }
-  constexpr std::size_t fewest = 4;
   constexpr double rounding = 1e-12;
-  if (groups.size() < fewest || !(std::sqrt(variance) > rounding * largest))
+  if (groups.size() < fewest_groups || !(std::sqrt(variance) > rounding * largest))
     return std::vector<SobolIndices>(inputs, {{none, none, none}, {none, none, none}});
 
   const auto add = [&](Sums& sums, const Group& group) {
@@ -108,7 +107,10 @@ std::vector<SobolIndices> sobol_indices(const PickFreeze& outputs, std::uint64_t
   }
   const auto estimate = [&](std::size_t k) {
     const double shift = sum[k] / replications;
-    const double deviation = std::sqrt(std::max(0.0, squares[k] / replications - shift * shift));
+    const double spread = squares[k] / replications - shift * shift;
+    // Some replications do not vary: the groups that differ are too few to tell how sure their index is.
+    if (!std::isfinite(spread)) return Estimate{values[k], none, none};
+    const double deviation = std::sqrt(std::max(0.0, spread));
     constexpr double of_95 = 1.959964;
     return Estimate{values[k], values[k] - of_95 * deviation, values[k] + of_95 * deviation};
   };

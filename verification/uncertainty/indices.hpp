@@ -24,11 +24,15 @@ struct PickFreeze {
   std::vector<std::vector<double>> mixed;  ///< [input][group]
 };
 
+/// Fewer whole groups than these have no indices.
+inline constexpr std::uint64_t fewest_groups = 4;
+
 /// Indices of each input with centred outputs (A, B and mixed ones less their mean):
 ///   first: mean(f_B (f_AB - f_A)) / var (Saltelli et al. 2010), total: mean((f_A - f_AB)^2) / 2 / var
 /// (Jansen 1999), var that of all f_A and f_B. Intervals are 1.96 standard deviations of a bootstrap over
 /// whole groups, of so many replications from a seed. Groups with a value that is none are left out. All are
-/// none where fewer than four groups are left or the quantity does not vary.
+/// none where fewer than fewest_groups are left or the quantity does not vary; the ends of intervals are none
+/// where it varies in so few groups that a replication without them has no variance.
 std::vector<SobolIndices> sobol_indices(const PickFreeze& outputs, std::uint64_t seed = 0,
                                         int replications = 400);
 
