@@ -168,6 +168,7 @@ void Assembler::tangent(const Stage& stage, std::span<const double> y, SparseMat
       BloodTangent& t = blood[index];
       t = {};
       for (const auto& at : table.points) kernel::add_blood_tangent(parameters, at, nodes, t);
+      coupled::share_columns(map_.blood()[k].numbers, t);
     });
     for (int k = first; k < last; ++k) scatter(blood[k - first], map_.blood()[k], c, values);
   }
@@ -193,6 +194,7 @@ void Assembler::tangent(const Stage& stage, std::span<const double> y, SparseMat
     for (const auto& at : side.points)
       kernel::add_side_tangent(BoundaryTerms{problem_, side.boundary}, c, at, nodes, t);
     const SideNumbers& n = map_.sides()[s].numbers;
+    coupled::share_columns(n, t);
     scatter(t, map_.sides()[s], c, values);
     const auto pressure = coupled::pressure_entry(layout_, side.boundary);
     const auto rows = coupled::scalar_rows(layout_, problem_, side.boundary);
@@ -215,7 +217,8 @@ void Assembler::tangent(const Stage& stage, std::span<const double> y, SparseMat
 }
 
 void Assembler::follow(double time, std::span<double> y) const {
-  if (!layout_.mesh_follows()) return;
+  // Shares of the wall's displacement are complete.
+  if (layout_.followers().empty()) return;
   const auto nodes = [&](int cell) {
     return CellNodes(problem_.mesh, problem_.discretisation.element, problem_.mesh.cells[cell]);
   };
@@ -346,6 +349,8 @@ std::string Assembler::compression(const LeastJacobian& least) const {
   if (!blood) return text;
   if (beside_clamped_end(problem_, mesh.points[centre]))
     return text + ", beside a clamped end; geometry.ends = \"sliding\" bears more";
+  if (problem_.discretisation.sectional_mesh)
+    return text + ", where the lumen's surface closes or leans back over the axis";
   return problem_.discretisation.stiffened_mesh ? text : text + "; mesh.motion = \"stiffened\" may bear more";
 }
 

@@ -2,7 +2,10 @@
 #include "axisym/layout.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <numeric>
+#include <stdexcept>
 
 #include "core/coupled/openings.hpp"
 
@@ -40,6 +43,29 @@ void mark_nodes(const Problem& problem, coupled::LayoutSpec& spec) {
         if (spec.has_displacement[node]) spec.on_wall[node] = true;
 }
 
+/// Power of the share of the radius with which motion along the axis fades towards it: J of the map
+/// r = s (R + u_r(Z)), z = Z + s^k u_z(Z) is greater where the surface is steep the greater k is.
+constexpr int axial_power = 3;
+
+/// Each section's nodes in the blood by that on its interface: r = s (R + u_r(Z)), z = Z + s^k u_z(Z).
+void share_sections(const Mesh& mesh, coupled::LayoutSpec& spec) {
+  std::map<double, int> interface;  // by height
+  for (const Edge& edge : mesh.edges)
+    if (edge.boundary == Boundary::interface)
+      for (const int node : mesh.side_nodes(edge.cell, edge.side))
+        if (spec.has_displacement[node]) interface.emplace(mesh.points[node][1], node);
+  for (int node = 0; node < static_cast<int>(mesh.points.size()); ++node) {
+    if (!spec.has_displacement[node] || spec.on_wall[node]) continue;
+    const auto found = interface.find(mesh.points[node][1]);
+    if (found == interface.end())
+      throw std::logic_error("share_sections: a node in the blood lies in no section of the mesh");
+    const int of = found->second;
+    const double s = mesh.points[node][0] / mesh.points[of][0];
+    spec.shares.push_back({node, 0, of, s});
+    spec.shares.push_back({node, 1, of, std::pow(s, axial_power)});
+  }
+}
+
 }  // namespace
 
 Layout layout_of(const Problem& problem) {
@@ -48,6 +74,7 @@ Layout layout_of(const Problem& problem) {
   spec.components = 2;
   spec.mesh_follows = problem.discretisation.lagged_mesh;
   mark_nodes(problem, spec);
+  if (problem.discretisation.sectional_mesh) share_sections(mesh, spec);
   if (mesh.has(Part::blood)) coupled::add_openings(problem, spec);
   for (const Edge& edge : mesh.edges) {
     const Prescribed& fixed = problem.on(edge.boundary);

@@ -31,6 +31,9 @@ struct Discretisation {
   /// The mesh in the blood is where the steps before lead to expect it (Stage::mesh), and none of the
   /// unknowns: it follows the wall after the step.
   bool lagged_mesh = false;
+  /// The mesh in the blood moves with the wall section by section, as known shares of its displacement
+  /// (LayoutSpec::shares); its nodes must lie in sections.
+  bool sectional_mesh = false;
 };
 
 /// True for tissue whose pressure cells interpolate on their own (those of the bubble element never do).

@@ -39,6 +39,14 @@ void Layout::number(const LayoutSpec& spec) {
   }
   for (std::size_t s = scalar_; s < size_; ++s) unknown_[s] = wanted;
 
+  if (!spec.shares.empty()) shared_index_.assign(velocity_, -1);
+  for (const auto& share : spec.shares) {
+    const std::size_t entry = displacement(share.node, share.component);
+    unknown_[entry] = -1;
+    shared_index_[entry] = static_cast<int>(shared_.size());
+    shared_.push_back({entry, displacement(share.of, share.component), share.share});
+  }
+
   for (const auto& fixed : spec.fixed) {
     const std::size_t entry =
         fixed.is_velocity ? velocity(fixed.node, fixed.component) : displacement(fixed.node, fixed.component);
@@ -67,6 +75,19 @@ void Layout::number(const LayoutSpec& spec) {
     if (has_pressure(node)) give_number(pressure(node));
   }
   for (std::size_t s = scalar_; s < size_; ++s) give_number(s);
+}
+
+void Layout::share_out(std::span<double> y) const {
+  for (const SharedEntry& shared : shared_) y[shared.entry] = shared.share * y[shared.of];
+}
+
+Layout::Column Layout::column(std::size_t entry) const {
+  const int index = entry < shared_index_.size() ? shared_index_[entry] : -1;
+  if (index < 0) return {unknown_[entry], 1};
+  const SharedEntry& shared = shared_[index];
+  // Where the mesh is given within a step, and on the axis, nothing depends on the wall.
+  if (mesh_follows_ || shared.share == 0) return {-1, 0};
+  return {unknown_[shared.of], shared.share};
 }
 
 int Layout::node_of(std::size_t entry) const {

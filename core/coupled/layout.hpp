@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace tunica::coupled {
@@ -15,6 +16,14 @@ struct LayoutSpec {
   std::vector<bool> has_pressure;
   bool inlet_pressure = false, outlet_pressure = false, windkessel_pressure = false;
   bool mesh_follows = false;  ///< the displacement off the wall is no unknown
+  /// A displacement in the blood that is a fixed share of that of a node on the wall, in the same component.
+  struct Share {
+    int node;
+    int component;
+    int of;        ///< node on the wall
+    double share;  ///< displacement of the one over that of the other
+  };
+  std::vector<Share> shares;
   /// Values that are prescribed, if they are unknowns at all; later ones that repeat earlier ones are
   /// ignored.
   struct Fixed {
@@ -63,6 +72,17 @@ class Layout {
   const std::vector<std::size_t>& followers() const { return followers_; }
   int follower(std::size_t entry) const { return follower_.empty() ? -1 : follower_[entry]; }
 
+  /// Sets the entries of y, or of its rate or derivative, that are shares of others (LayoutSpec::shares).
+  void share_out(std::span<double> y) const;
+
+  /// What an entry's column of a derivative adds to: `share` times the column of `unknown`, -1 for none. An
+  /// unknown's own is itself, once; a share of an unknown is that of its unknown.
+  struct Column {
+    int unknown;
+    double share;
+  };
+  Column column(std::size_t entry) const;
+
   /// Number of the unknown at an entry of y, or -1.
   int unknown(std::size_t entry) const { return unknown_[entry]; }
   /// Entry of y of an unknown.
@@ -91,7 +111,13 @@ class Layout {
   std::size_t velocity_ = 0, pressure_ = 0, scalar_ = 0, size_ = 0;
   std::vector<int> pressure_index_, unknown_;
   std::vector<std::size_t> entries_, followers_;
-  std::vector<int> follower_;  ///< by entry of the displacement
+  struct SharedEntry {
+    std::size_t entry, of;
+    double share;
+  };
+  std::vector<SharedEntry> shared_;
+  std::vector<int> shared_index_;  ///< by entry of the displacement, -1 for none; empty without shares
+  std::vector<int> follower_;      ///< by entry of the displacement
   std::vector<bool> on_wall_, has_displacement_, has_velocity_;
   std::vector<int> wall_nodes_;
   std::vector<PrescribedEntry> prescribed_;

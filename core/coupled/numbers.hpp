@@ -16,12 +16,14 @@ template <class Frame, int Width>
 struct Numbers {
   static constexpr int n = Frame::components;
   std::array<std::array<int, Width>, n> momentum, mesh, velocity, displacement;
+  std::array<std::array<double, Width>, n> share;  ///< of its unknown that a displacement is (Layout::column)
   std::array<int, Width> continuity, pressure;
   std::array<bool, Width> adheres;  ///< the velocity is the rate of the displacement
 
   Numbers() {
     for (auto* list : {&momentum, &mesh, &velocity, &displacement})
       for (auto& component : *list) component.fill(-1);
+    for (auto& component : share) component.fill(1.0);
     continuity.fill(-1);
     pressure.fill(-1);
     adheres.fill(false);
@@ -34,8 +36,11 @@ template <class Frame, int Width>
 void number_displacement(const Layout& layout, std::span<const int> nodes, Numbers<Frame, Width>& numbers) {
   for (int c = 0; c < Frame::components; ++c)
     for (std::size_t k = 0; k < nodes.size(); ++k) {
-      const int unknown = layout.unknown(layout.displacement(nodes[k], c));
-      numbers.displacement[c][k] = unknown;
+      const std::size_t entry = layout.displacement(nodes[k], c);
+      const int unknown = layout.unknown(entry);
+      const Layout::Column column = layout.column(entry);
+      numbers.displacement[c][k] = column.unknown;
+      numbers.share[c][k] = column.share;
       (layout.on_wall(nodes[k]) ? numbers.momentum : numbers.mesh)[c][k] = unknown;
     }
 }
@@ -82,13 +87,43 @@ Numbers<Frame, Width> side_numbers(const Layout& layout, std::span<const int> si
     const int node = side[k];
     numbers.adheres[k] = layout.on_wall(node);
     for (int c = 0; c < Frame::components; ++c) {
-      numbers.displacement[c][k] = layout.unknown(layout.displacement(node, c));
+      const Layout::Column column = layout.column(layout.displacement(node, c));
+      numbers.displacement[c][k] = column.unknown;
+      numbers.share[c][k] = column.share;
       numbers.velocity[c][k] =
           numbers.adheres[k] ? numbers.displacement[c][k] : layout.unknown(layout.velocity(node, c));
       numbers.momentum[c][k] = numbers.velocity[c][k];
     }
   }
   return numbers;
+}
+
+namespace detail {
+
+template <class Shares, int Width>
+void scale_columns(const Shares& shares, kernel::Block<Width>& block) {
+  for (int k = 0; k < Width; ++k)
+    for (int l = 0; l < Width; ++l) block.entry[k][l] *= shares[l];
+}
+
+}  // namespace detail
+
+/// Makes derivatives by displacements those by the unknowns that these are shares of.
+template <class Frame, int Width>
+void share_columns(const Numbers<Frame, Width>& n, kernel::BloodTangent<Frame, Width>& t) {
+  for (int b = 0; b < Frame::components; ++b) {
+    for (int a = 0; a < Frame::components; ++a)
+      detail::scale_columns(n.share[b], t.momentum_displacement[a][b]);
+    detail::scale_columns(n.share[b], t.continuity_displacement[0][b]);
+  }
+}
+template <class Frame, int Width>
+void share_columns(const Numbers<Frame, Width>& n, kernel::SideTangent<Frame, Width>& t) {
+  for (int b = 0; b < Frame::components; ++b) {
+    for (int a = 0; a < Frame::components; ++a)
+      detail::scale_columns(n.share[b], t.momentum_displacement[a][b]);
+    for (int k = 0; k < Width; ++k) t.flow_displacement.value[b][k] *= n.share[b][k];
+  }
 }
 
 /// Visits every block of a tangent: visit(rows, columns, of a velocity, block).

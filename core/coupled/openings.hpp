@@ -97,8 +97,8 @@ struct ScalarEntry {
 std::vector<ScalarEntry> scalar_tangent(const OutletCondition& outlet, const Layout& layout,
                                         double coefficient);
 
-/// Sets the prescribed entries, by the place of their nodes among `points`, and the wall's velocities. `axes`
-/// as a frame has them.
+/// Sets the prescribed entries, by the place of their nodes among `points`, displacements that are shares of
+/// the wall's, and the wall's velocities. `axes` as a frame has them.
 template <int dimension, class Points, class Axes>
 void complete(const Conditions<dimension>& conditions, const Layout& layout, const Points& points,
               const Axes& axes, const Stage& stage, std::span<double> y) {
@@ -107,6 +107,7 @@ void complete(const Conditions<dimension>& conditions, const Layout& layout, con
     const auto value = function ? function(points[entry.node], stage.time) : Vector<double>{};
     y[entry.entry] = value[axes[entry.component]];
   }
+  layout.share_out(y);
   for (const int node : layout.wall_nodes())
     for (int c = 0; c < dimension; ++c)
       y[layout.velocity(node, c)] = rate(stage, y, layout.displacement(node, c));

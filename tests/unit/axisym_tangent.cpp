@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <ostream>
+#include <stdexcept>
 #include <string>
 
 #include "axisym/assembler.hpp"
@@ -108,6 +109,24 @@ TEST_P(CoupledTangent, OfEveryInletAndOutlet) {
 TEST_P(CoupledTangent, OfAStiffenedMesh) {
   problem.discretisation.stiffened_mesh = true;
   expect_exact();
+}
+
+// The wall's displacement moves every point of its section, at once and within the columns of the derivative.
+TEST_P(CoupledTangent, OfASectionalMesh) {
+  TubeSpec spec;
+  spec.radius = 1;
+  spec.layers = {0.5};
+  spec.length = 2;
+  spec.blood_cells = spec.wall_cells = spec.axial_cells = 2;
+  spec.shape = GetParam().shape;
+  problem.mesh = structured_tube(spec);
+  problem.discretisation.sectional_mesh = true;
+  // Centres of quadratic triangles lie in no section.
+  if (GetParam().shape == CellShape::triangle && GetParam().element == Element::quadratic) {
+    EXPECT_THROW(Assembler{problem}, std::logic_error);
+    return;
+  }
+  tangent::with_every_inlet_and_outlet(problem, [&] { expect_exact(); });
 }
 
 // With the motion of the mesh none of the unknowns: the wall alone moves the blood's cells.
