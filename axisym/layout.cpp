@@ -44,8 +44,9 @@ void mark_nodes(const Problem& problem, coupled::LayoutSpec& spec) {
 }
 
 /// Power of the share of the radius with which motion along the axis fades towards it: J of the map
-/// r = s (R + u_r(Z)), z = Z + s^k u_z(Z) is greater where the surface is steep the greater k is.
-constexpr int axial_power = 3;
+/// r = s (R + u_r(Z)), z = Z + s^k u_z(Z) grows with k where the surface is steep, as far as cells beside the
+/// interface resolve s^k. Of 24 arteries that fold under harmonic motion 9 run with 3, 17 with 8.
+constexpr int axial_power = 8;
 
 /// Each section's nodes in the blood by that on its interface: r = s (R + u_r(Z)), z = Z + s^k u_z(Z).
 void share_sections(const Mesh& mesh, coupled::LayoutSpec& spec) {
