@@ -349,9 +349,8 @@ std::string Assembler::compression(const LeastJacobian& least) const {
   if (!blood) return text;
   if (beside_clamped_end(problem_, mesh.points[centre]))
     return text + ", beside a clamped end; geometry.ends = \"sliding\" bears more";
-  if (problem_.discretisation.sectional_mesh)
-    return text + ", where the lumen's surface closes or leans back over the axis";
-  return problem_.discretisation.stiffened_mesh ? text : text + "; mesh.motion = \"stiffened\" may bear more";
+  const bool is_harmonic = !problem_.discretisation.stiffened_mesh && !problem_.discretisation.sectional_mesh;
+  return is_harmonic ? text + "; mesh.motion = \"stiffened\" may bear more" : text;
 }
 
 }  // namespace tunica::axisym

@@ -107,8 +107,7 @@ std::unique_ptr<Setup> setup_of(const Scene& scene, const Resolution& resolution
   setup->wall_density = problem.wall_density;
   set_ends(scene, problem);
   problem.discretisation.sectional_mesh =
-      scene.text("mesh.motion") == "sectional" && scene.text("geometry.kind") != "mesh" &&
-      problem.mesh.shape == CellShape::quadrilateral && problem.mesh.has(Part::blood);
+      scene.text("mesh.motion") == "sectional" && problem.mesh.has(Part::blood);
 
   const Extent ends = extent(problem.mesh);
   const Section middle = section_at(problem.mesh, 0.5 * (ends.inlet + ends.outlet));

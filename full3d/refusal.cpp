@@ -6,6 +6,8 @@
 namespace tunica::full3d {
 
 std::string refusal(const Scene& scene) {
+  if (scene.text("mesh.motion") == "sectional")
+    return "mesh.motion = \"sectional\" is for the 2D tier; use \"harmonic\" or \"stiffened\"";
   if (scene.text("geometry.kind") == "mesh") {
     const int dimensions = element::gmsh_dimensions(scene.folder() / scene.text("geometry.file"));
     if (dimensions == 1 || dimensions == 2)

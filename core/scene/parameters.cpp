@@ -308,8 +308,8 @@ std::vector<Parameter> declare() {
   all.push_back(
       choice("mesh.motion", "harmonic", {"harmonic", "sectional", "stiffened"},
              "How the mesh in the blood follows the wall: harmonic, section by section, each point keeping "
-             "its share of the way to the wall, which bears larger motion (2D tier, quadrilaterals; "
-             "elsewhere harmonic), or harmonic with small cells made stiffer."));
+             "its share of the way to the wall, which bears larger motion (2D tier, quadrilaterals), "
+             "or harmonic with small cells made stiffer."));
 
   all.push_back(
       choice("solver.method", "auto", {"auto", "direct", "schwarz", "block"},
