@@ -27,12 +27,15 @@ class CarotidFlow final : public Waveform {
     static constexpr std::array<double, 7> sine{0.129013, -0.031435, -0.086106, 0.028263,
                                                 0.010177, 0.012160,  -0.026303};
     const double phase = 2 * std::numbers::pi * std::fmod(time, period_) / period_;
-    double sum = 1;
-    for (std::size_t k = 0; k < cosine.size(); ++k) {
-      const double angle = static_cast<double>(k + 1) * phase;
-      sum += cosine[k] * std::cos(angle) + sine[k] * std::sin(angle);
+    // The real part of sum_k (a_k - i b_k) z^k with z = exp(i phase), by Horner's rule.
+    const double c = std::cos(phase), s = std::sin(phase);
+    double real = 0, imaginary = 0;
+    for (std::size_t k = cosine.size(); k-- > 0;) {
+      const double before = real + cosine[k], below = imaginary - sine[k];
+      real = before * c - below * s;
+      imaginary = before * s + below * c;
     }
-    return sum;
+    return 1 + real;
   }
 
  private:

@@ -2,8 +2,6 @@
 #pragma once
 
 #include <functional>
-#include <memory>
-#include <string>
 #include <vector>
 
 namespace tunica::lumped {
@@ -45,37 +43,31 @@ struct Sensitivity {
   double size;    ///< expected magnitude of s_i over scale_i, for the absolute tolerance
 };
 
-/// Variable-order, variable-step BDF of CVODES with staggered forward sensitivities and root finding.
+/// After so many steps the system is told, and unless they have brought this share of its time scale the
+/// integration counts as stuck.
+inline constexpr long steps_at_a_time = 1000;
+inline constexpr double least_share = 1e-5;
+
+/// Follows a system in time.
 class Integrator {
  public:
-  /// `tolerance` is relative and local, that is, per step. Sensitivities take part in the control of
-  /// the step, or follow the steps that suit the state.
-  enum class SensitivityErrors { controlled, followed };
-  Integrator(System system, std::vector<Sensitivity> sensitivities, double tolerance,
-             SensitivityErrors errors = SensitivityErrors::controlled);
-  ~Integrator();
-  Integrator(Integrator&&) noexcept;
-  Integrator& operator=(Integrator&&) noexcept;
+  virtual ~Integrator() = default;
 
   /// Sets the state at `time` and, one vector per sensitivity, its derivatives. The integration is not
   /// carried beyond `end_time`, where the right-hand side need not exist.
-  void start(double time, double end_time, const std::vector<double>& state,
-             const std::vector<std::vector<double>>& sensitivities);
+  virtual void start(double time, double end_time, const std::vector<double>& state,
+                     const std::vector<std::vector<double>>& sensitivities) = 0;
 
   /// Goes on to `time` or to the first crossing before it, whichever comes first; returns the
   /// crossings met (empty: `time` was reached). Throws SolverFailure with the reason, also when steps have
   /// become so short that they lead nowhere.
-  std::vector<Crossing> advance(double time);
+  virtual std::vector<Crossing> advance(double time) = 0;
 
-  double time() const;
-  const double* state() const;
+  virtual double time() const = 0;
+  virtual const double* state() const = 0;
   /// Derivative number k of the state at time(); computed for the time that advance stopped at.
-  const double* sensitivity(int k) const;
-  IntegratorStatistics statistics() const;
-
- private:
-  struct Implementation;
-  std::unique_ptr<Implementation> implementation_;
+  virtual const double* sensitivity(int k) const = 0;
+  virtual IntegratorStatistics statistics() const = 0;
 };
 
 }  // namespace tunica::lumped

@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/linear/anderson.hpp"
+#include "lumped/multistep.hpp"
 
 namespace tunica::lumped {
 
@@ -74,7 +75,7 @@ class Search {
 
 void find_state(const System& system, double period, double tolerance, LimitCycle& cycle) {
   const int n = system.unknowns;
-  Integrator integrator(system, {}, tolerance);
+  Multistep integrator(system, {}, tolerance);
   Search search(local_errors * tolerance);
   Vector x = from(cycle.state.data(), n), image = x, weights(n);
   for (int count = 0; count < most_periods; ++count) {
@@ -116,7 +117,7 @@ LimitCycle find_limit_cycle(const System& given, const std::vector<double>& gues
   find_state(system, period, tolerance, cycle);
   if (parameters.empty()) return cycle;
 
-  Integrator integrator(system, parameters, tolerance);
+  Multistep integrator(system, parameters, tolerance);
   cycle.derivatives.assign(count, std::vector<double>(n, 0.0));
   std::vector<Search> searches(count, Search(local_errors * tolerance));
   for (int round = 0; round < most_periods; ++round) {

@@ -16,8 +16,9 @@
 #include "core/radial/limit_load.hpp"
 #include "core/scene/unused.hpp"
 #include "core/units.hpp"
-#include "lumped/integrator.hpp"
+#include "lumped/collocation.hpp"
 #include "lumped/limit_cycle.hpp"
+#include "lumped/multistep.hpp"
 #include "lumped/network.hpp"
 #include "lumped/observer.hpp"
 #include "lumped/recruitment_log.hpp"
@@ -39,6 +40,11 @@ double local_tolerance(const Scene& scene) {
   return std::clamp(2e-3 * scene.number("accuracy.tolerance"), 1e-11, 1e-4);
 }
 
+/// The same where the error that is controlled is that of a formula of lower order than the step's own.
+double collocation_tolerance(const Scene& scene) {
+  return std::clamp(2e-2 * scene.number("accuracy.tolerance"), 1e-10, 1e-3);
+}
+
 /// Rows that the quantities of the last beat are taken from: so many that the parabolas through their
 /// extremes are as good as the scene asks.
 std::vector<observables::Stop> stops_for_answer(const Scene& scene, double period) {
@@ -58,14 +64,17 @@ std::vector<observables::Stop> stops_for_answer(const Scene& scene, double perio
 
 Looked looked_at(const run::Question& question) {
   Looked looked;
+  looked.in_tables = true;
   for (int p = 0; p < observables::wall_points; ++p) {
-    const auto is_asked = [&](std::initializer_list<const char*> observables) {
-      return std::any_of(
-          question.quantities.begin(), question.quantities.end(), [&](const run::Quantity& one) {
-            return std::any_of(observables.begin(), observables.end(), [&](const char* name) {
-              return one.observable == name || one.observable == fmt::format("{}.P{}", name, p + 1);
-            });
-          });
+    const auto is_asked = [&](std::initializer_list<std::string_view> names) {
+      return std::any_of(question.quantities.begin(), question.quantities.end(), [&](const auto& one) {
+        const std::string_view observable = one.observable;
+        return std::any_of(names.begin(), names.end(), [&](std::string_view name) {
+          if (!observable.starts_with(name)) return false;
+          const auto point = observable.substr(name.size());
+          return point.empty() || (point.starts_with(".P") && point.back() == '1' + p);
+        });
+      });
     };
     looked.von_mises[p] = is_asked({"von_mises"});
     looked.fibers[p] = is_asked({"fiber_angle", "fiber_stretch", "recruitment"});
@@ -282,6 +291,15 @@ class LumpedRun final : public TierRun {
     return s;
   }
 
+  /// An answer asks for more rows than a system of a few unknowns takes steps; waves between compartments are
+  /// best left to formulas that damp them.
+  std::unique_ptr<Integrator> integrator_for(const System& system,
+                                             const std::vector<Sensitivity>& carried) const {
+    if (is_answer_ && !system.oscillates && system.unknowns <= Collocation::most_unknowns)
+      return std::make_unique<Collocation>(system, collocation_tolerance(scene_));
+    return std::make_unique<Multistep>(system, carried, tolerance_);
+  }
+
   void integrate(const RunControl& control) {
     std::vector<Sensitivity> carried;
     for (int k = 0; k < network_.parameters(); ++k) carried.push_back({k, sensitivity_size(k)});
@@ -305,7 +323,8 @@ class LumpedRun final : public TierRun {
       begin_on(find_limit_cycle(s, guess_of_limit_cycle(s), period, carried, tolerance_));
     phase_ = Phase::beats;
 
-    Integrator integrator(s, carried, tolerance_);
+    const auto chosen = integrator_for(s, carried);
+    Integrator& integrator = *chosen;
     const double end = stops_.back().time, round_off = 1e-12 * end;
     // Where the inlet jumps a new integration begins: in a steady state steps grow so long that one would
     // pass over a whole pulse without meeting it.

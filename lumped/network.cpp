@@ -10,7 +10,6 @@
 #include "core/error.hpp"
 #include "core/observables/result.hpp"
 #include "core/radial/from_scene.hpp"
-#include "lumped/wall_tables.hpp"
 
 namespace tunica::lumped {
 
@@ -80,7 +79,7 @@ Network::Network(const Scene& scene, const std::vector<std::string>& parameters)
     throw InvalidInput(
         "outlet.resistance = 0 with outlet.kind = \"rcr\" shorts its compliance; set it above 0");
 
-  curve_ = wall_curve(scene, parameters);
+  wall_ = wall_table(scene, parameters);
   scales_ = typical_sizes();
 }
 
@@ -118,7 +117,7 @@ std::vector<double> Network::typical_sizes() {
       std::abs(n.outlet_pressure) + (inlet_.is_pressure ? inlet : (outlet + along) * inlet), least, greatest);
   const double flow = inlet_.is_pressure ? std::max(1.0, inlet) / std::max(outlet, 1.0) : inlet;
   // dp/de, with s^2 = 1 + e.
-  const double slope = 0.5 * std::abs(curve_->pressure_slope(1.0));
+  const double slope = 0.5 * std::abs(curve().pressure_slope(1.0));
   const double growth = working_pressure_ < slope ? working_pressure_ / slope : 1;
   std::vector<double> scale(unknowns_, std::max(flow, 1e-12));
   for (int i = 0; i < compartments_; ++i) scale[area_index(i)] = growth;
@@ -132,8 +131,8 @@ void Network::magnitudes(const double* y, double* result) const {
   for (int i = 0; i < compartments_; ++i) {
     const double area_ratio = 1 + y[area_index(i)];
     const auto stretch = radial::LumenStretch::of_strain(strain_of(y[area_index(i)]));
-    const double slope = std::abs(curve_->pressure_slope(stretch)) / (2 * stretch.value());
-    const double size = std::max(working_pressure_, std::abs(curve_->pressure(stretch)));
+    const double slope = std::abs(curve().pressure_slope(stretch)) / (2 * stretch.value());
+    const double size = std::max(working_pressure_, std::abs(curve().pressure(stretch)));
     result[area_index(i)] = size < slope * area_ratio ? size / slope : area_ratio;
   }
 }
@@ -142,26 +141,18 @@ template <class P>
 P Network::curve_pressure(const P& strain, int k) const {
   const auto s = radial::LumenStretch::of_strain(plain(strain));
   if constexpr (std::same_as<P, double>) {
-    return curve_->pressure(s);
+    return curve().pressure(s);
   } else {
-    double derivative = curve_->pressure_slope(s) * strain.derivative[0];
-    if (k >= 0) derivative += curve_->pressure_derivative(s, k);
-    return P(curve_->pressure(s), {derivative});
+    double derivative = curve().pressure_slope(s) * strain.derivative[0];
+    if (k >= 0) derivative += curve().pressure_derivative(s, k);
+    return P(curve().pressure(s), {derivative});
   }
 }
 
-/// Everything between the unknowns and their rates.
 template <class P>
-struct Network::Flows {
-  std::vector<P> pressure, resistance, inertance;  ///< of each compartment
-  std::vector<P> flow;                             ///< 0: inlet, i: out of compartment i, N: outlet
-  P inlet_pressure, outlet_pressure;
-};
-
-template <class P>
-Network::Flows<P> Network::flows(const NetworkNumbers<P>& n, double time, const P* y, int k) const {
+const Network::Flows<P>& Network::flows(const NetworkNumbers<P>& n, double time, const P* y, int k) const {
   const int last = compartments_;
-  Flows<P> f;
+  auto& f = std::get<Flows<P>>(flows_);
   f.pressure.resize(last);
   f.resistance.resize(last);
   f.inertance.resize(last);
@@ -197,7 +188,7 @@ Network::Flows<P> Network::flows(const NetworkNumbers<P>& n, double time, const 
 
 template <class P>
 void Network::rate_of(const NetworkNumbers<P>& n, double time, const P* y, int k, P* result) const {
-  const Flows<P> f = flows(n, time, y, k);
+  const Flows<P>& f = flows(n, time, y, k);
   const int last = compartments_;
   const P volume = pi * n.radius * n.radius * n.length / static_cast<double>(compartments_);
   for (int i = 0; i < last; ++i) result[area_index(i)] = (f.flow[i] - f.flow[i + 1]) / volume;
@@ -228,7 +219,7 @@ P Network::mid_strain_of(const P* y) const {
 
 template <class P>
 Outside<P> Network::outside_of(const NetworkNumbers<P>& n, double time, const P* y, int k) const {
-  const Flows<P> f = flows(n, time, y, k);
+  const Flows<P>& f = flows(n, time, y, k);
   const P strain = mid_strain_of(y);
   return {f.flow.front(), f.flow.back(), f.outlet_pressure, strain, curve_pressure(strain, k)};
 }
@@ -270,7 +261,7 @@ Outside<D> Network::outside_derivative(double time, const double* y, const doubl
 }
 
 std::vector<Compartment> Network::inside(double time, const double* y) const {
-  const Flows<double> f = flows(numbers_, time, y, -1);
+  const Flows<double>& f = flows(numbers_, time, y, -1);
   std::vector<Compartment> all;
   for (int i = 0; i < compartments_; ++i)
     all.push_back({f.pressure[i], numbers_.radius * std::sqrt(1 + y[area_index(i)]), f.flow[i + 1]});

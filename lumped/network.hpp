@@ -3,11 +3,12 @@
 
 #include <memory>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "core/inlet.hpp"
-#include "core/radial/wall_curve.hpp"
 #include "core/scene/seeded.hpp"
+#include "lumped/wall_tables.hpp"
 
 namespace tunica::lumped {
 
@@ -86,9 +87,10 @@ class Network {
   const Inlet& inlet() const { return inlet_; }
   /// Factor on the inlet's shape: mean flow (cm3/s) or pressure (dyn/cm2).
   double inlet_scale() const { return numbers_.inlet_scale; }
-  const radial::WallCurve& curve() const { return *curve_; }
+  const radial::WallCurve& curve() const { return wall_->curve; }
+  const PlaceTable& places() const { return wall_->places; }
   /// The ring with parameter k seeded.
-  const radial::Ring<Dual<double, 1>>& seeded_ring(int k) const { return curve_->model().seeded()[k]; }
+  const radial::Ring<Dual<double, 1>>& seeded_ring(int k) const { return wall_->curve.model().seeded()[k]; }
 
  private:
   template <class P>
@@ -97,10 +99,16 @@ class Network {
   std::vector<double> typical_sizes();
   template <class P>
   P curve_pressure(const P& strain, int k) const;
+  /// Everything between the unknowns and their rates.
   template <class P>
-  struct Flows;
+  struct Flows {
+    std::vector<P> pressure, resistance, inertance;  ///< of each compartment
+    std::vector<P> flow;                             ///< 0: inlet, i: out of compartment i, N: outlet
+    P inlet_pressure, outlet_pressure;
+  };
+  /// In the network's own room, until they are next asked for.
   template <class P>
-  Flows<P> flows(const NetworkNumbers<P>& n, double time, const P* y, int k) const;
+  const Flows<P>& flows(const NetworkNumbers<P>& n, double time, const P* y, int k) const;
   template <class P>
   void rate_of(const NetworkNumbers<P>& n, double time, const P* y, int k, P* result) const;
   template <class P>
@@ -118,9 +126,10 @@ class Network {
   Inlet inlet_;
   NetworkNumbers<double> numbers_;
   std::vector<NetworkNumbers<Dual<double, 1>>> seeded_;
-  std::shared_ptr<const radial::WallCurve> curve_;  ///< of this thread's networks with the same wall
-  double working_pressure_ = 0;                     ///< dyn/cm2, of the size that the artery sees
+  std::shared_ptr<const WallTable> wall_;  ///< of this thread's networks with the same wall
+  double working_pressure_ = 0;            ///< dyn/cm2, of the size that the artery sees
   std::vector<double> scales_;
+  mutable std::tuple<Flows<double>, Flows<Dual<double, 1>>> flows_;  ///< a network belongs to one thread
 };
 
 }  // namespace tunica::lumped

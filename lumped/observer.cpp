@@ -47,6 +47,7 @@ Observer::Observer(const Network& network, std::vector<std::string> parameters)
 observables::Sample Observer::sample(double time, const double* y, const Looked& looked) const {
   const auto& curve = network_.curve();
   const auto& ring = curve.model().ring();
+  const PlaceTable& places = network_.places();
   const Outside<double> outside = network_.outside(time, y);
   observables::Sample sample;
   sample.time = time;
@@ -60,18 +61,14 @@ observables::Sample Observer::sample(double time, const double* y, const Looked&
   for (int p = 0; p < observables::wall_points; ++p) {
     observables::WallPoint& point = sample.wall[p];
     point.radial_displacement = curve.displacement(s, p);
-    if (!looked.von_mises[p] && !looked.fibers[p]) continue;
-    const auto gradient =
-        Radial::gradient(point.radial_displacement, curve.radial_slope(s, p), ring.radius(curve.places()[p]));
-    const auto& law = ring.layers[place_layers_[p]].law;
     if (looked.von_mises[p])
-      point.von_mises = von_mises_stress(cauchy_stress(wall::piola(law, gradient, Radial::axes()), gradient));
-    const auto& families = wall::families(law);
-    if (families.empty() || !looked.fibers[p]) continue;
-    const auto fiber = wall::fiber_state(families.front(), gradient, Radial::axes());
-    point.fiber_angle = fiber.angle * degrees;
-    point.fiber_stretch = fiber.stretch;
-    point.recruitment = fiber.recruitment;
+      point.von_mises = looked.in_tables ? places.von_mises(s, p) : places.computed_von_mises(s, p);
+    if (!looked.fibers[p]) continue;
+    const auto fiber = looked.in_tables ? places.fiber(s, p) : places.computed_fiber(s, p);
+    if (!fiber) continue;
+    point.fiber_angle = fiber->angle * degrees;
+    point.fiber_stretch = fiber->stretch;
+    point.recruitment = fiber->recruitment;
   }
   return sample;
 }

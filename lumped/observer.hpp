@@ -11,6 +11,7 @@ namespace tunica::lumped {
 
 /// Which quantities of P1..P4 a row is to have: what takes long is computed where it is looked at only.
 struct Looked {
+  bool in_tables = false;  ///< read stress and fibres from the wall's tables, as accurate as the scene asks
   bool fibers[observables::wall_points] = {true, true, true, true};
   bool von_mises[observables::wall_points] = {true, true, true, true};
 };

@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/linear/band_matrix.hpp"
+#include "lumped/multistep.hpp"
 
 namespace tunica::lumped {
 
@@ -65,7 +66,7 @@ SteadyState find_steady_state(const System& given, const std::vector<double>& gu
   SteadyState steady;
   // The way there does not matter.
   constexpr double tolerance = 1e-4, most_spans = 1000;
-  Integrator integrator(system, {}, tolerance);
+  Multistep integrator(system, {}, tolerance);
   integrator.start(0, most_spans * span, guess, {});
   bool found = false;
   for (double spans = 1; !found && spans <= most_spans; spans *= 10) {

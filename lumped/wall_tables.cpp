@@ -55,14 +55,13 @@ std::string identity(const Scene& scene) {
 
 }  // namespace
 
-std::shared_ptr<const radial::WallCurve> wall_curve(const Scene& scene,
-                                                    const std::vector<std::string>& parameters) {
+std::shared_ptr<const WallTable> wall_table(const Scene& scene, const std::vector<std::string>& parameters) {
   const auto make = [&] {
-    return std::make_shared<const radial::WallCurve>(
-        radial::ring_model(scene, parameters, wall_accuracy(scene)), wall_places());
+    return std::make_shared<const WallTable>(radial::ring_model(scene, parameters, wall_accuracy(scene)),
+                                             wall_places());
   };
   if (!parameters.empty()) return make();
-  thread_local std::unordered_map<std::string, std::shared_ptr<const radial::WallCurve>> kept;
+  thread_local std::unordered_map<std::string, std::shared_ptr<const WallTable>> kept;
   // Some tens of kilobytes each.
   constexpr std::size_t most = 1000;
   const std::string key = identity(scene);

@@ -45,12 +45,6 @@ Dual<double, 1> excess_along(const wall::CollagenFamily<P>& family, const Ring<P
 
 }  // namespace
 
-WallCurve::Basis::Basis(int count) : terms(count) {
-  for (int k = 0; k < terms; ++k) nodes.push_back(std::cos(std::numbers::pi * (k + 0.5) / terms));
-  for (int j = 0; j < terms; ++j)
-    for (int k = 0; k < terms; ++k) cosines.push_back(std::cos(std::numbers::pi * j * (k + 0.5) / terms));
-}
-
 WallCurve::WallCurve(std::unique_ptr<const RingModel> model, std::vector<double> places)
     : model_(std::move(model)), places_(std::move(places)), basis_(terms_for(model_->accuracy())) {
   find_thresholds();
@@ -207,23 +201,20 @@ std::vector<double> WallCurve::values_at(double stretch) const {
 
 std::optional<WallCurve::Piece> WallCurve::piece_between(double lower, double upper) const {
   if (at_rest_.empty()) at_rest_ = values_at(1.0);
-  const int count = channels(), terms = basis_.terms;
+  const int count = channels(), terms = basis_.terms();
   const int places = static_cast<int>(places_.size());
   std::vector<double> values(static_cast<std::size_t>(count) * terms);
   for (int k = 0; k < terms; ++k) {
-    const double stretch = 0.5 * (lower + upper) + 0.5 * (upper - lower) * basis_.nodes[k];
+    const double stretch = 0.5 * (lower + upper) + 0.5 * (upper - lower) * basis_.node(k);
     const std::vector<double> here = values_at(stretch);
     for (int c = 0; c < count; ++c)
       values[c * terms + k] = c == slope_channel ? here[c] : (here[c] - at_rest_[c]) / (stretch - 1);
   }
   Piece piece{lower, upper, std::vector<double>(values.size())};
-  for (int c = 0; c < count; ++c) {
-    for (int j = 0; j < terms; ++j) {
-      double sum = 0;
-      for (int k = 0; k < terms; ++k) sum += basis_.cosines[j * terms + k] * values[c * terms + k];
-      piece.coefficients[c * terms + j] = sum * (j == 0 ? 1.0 : 2.0) / terms;
-    }
-  }
+  const auto of_channel = [&](std::vector<double>& all, int c) {
+    return std::span(all).subspan(static_cast<std::size_t>(c) * terms, terms);
+  };
+  for (int c = 0; c < count; ++c) basis_.fit(of_channel(values, c), of_channel(piece.coefficients, c));
 
   // Pressure, displacements and slopes decide; derivatives with respect to parameters are as smooth.
   double least = std::abs(values[0]), greatest = least;
@@ -279,22 +270,16 @@ const WallCurve::Piece& WallCurve::piece_at(double stretch) const {
 
 double WallCurve::evaluate(LumenStretch stretch, int channel) const {
   const Piece& piece = piece_at(stretch.value());
-  const int terms = basis_.terms;
+  const int terms = basis_.terms();
   const double x = (2 * stretch.value() - piece.lower - piece.upper) / (piece.upper - piece.lower);
-  const double* series = &piece.coefficients[static_cast<std::size_t>(channel) * terms];
-  double b1 = 0, b2 = 0;
-  for (int j = terms - 1; j > 0; --j) {
-    const double b = 2 * x * b1 - b2 + series[j];
-    b2 = b1;
-    b1 = b;
-  }
-  const double value = x * b1 - b2 + series[0];
+  const std::span series(&piece.coefficients[static_cast<std::size_t>(channel) * terms], terms);
+  const double value = chebyshev_sum(series, x);
   return channel == slope_channel ? value : at_rest_[channel] + stretch.strain() * value;
 }
 
 double WallCurve::differentiate(LumenStretch stretch, int channel) const {
   const Piece& piece = piece_at(stretch.value());
-  const int terms = basis_.terms;
+  const int terms = basis_.terms();
   const double scale = 2 / (piece.upper - piece.lower);
   const double x = 0.5 * scale * (2 * stretch.value() - piece.lower - piece.upper);
   const double* series = &piece.coefficients[static_cast<std::size_t>(channel) * terms];

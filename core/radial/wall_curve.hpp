@@ -7,6 +7,7 @@
 #include <set>
 #include <vector>
 
+#include "core/chebyshev.hpp"
 #include "core/radial/ring.hpp"
 
 namespace tunica::radial {
@@ -66,6 +67,16 @@ class WallCurve {
   /// Makes the pieces between two stretches, so that later queries only evaluate.
   void prepare(double from, double to) const;
 
+  /// The range around a stretch within which what is a smooth function of the wall's state is one of the
+  /// stretch, too: that of one series.
+  struct Smooth {
+    double lower, upper;
+  };
+  Smooth smooth_around(LumenStretch stretch) const {
+    const Piece& piece = piece_at(stretch.value());
+    return {piece.lower, piece.upper};
+  }
+
   const std::vector<Threshold>& thresholds() const { return thresholds_; }
   const RingModel& model() const { return *model_; }
   const std::vector<double>& places() const { return places_; }
@@ -73,13 +84,6 @@ class WallCurve {
   long solves() const { return solves_; }
 
  private:
-  /// A Chebyshev series of so many terms, from its values at the nodes.
-  struct Basis {
-    explicit Basis(int terms);
-    int terms;
-    std::vector<double> nodes;    ///< of the first kind, on [-1, 1]; no piece is evaluated at its very ends
-    std::vector<double> cosines;  ///< of the discrete cosine transform, [term][node]
-  };
   struct Piece {
     double lower;
     double upper;
@@ -108,7 +112,7 @@ class WallCurve {
 
   std::unique_ptr<const RingModel> model_;
   std::vector<double> places_;
-  Basis basis_;
+  ChebyshevBasis basis_;  ///< on each piece; no piece is evaluated at its very ends
   std::vector<Threshold> thresholds_;
   std::vector<double> breaks_;
   mutable std::vector<double> at_rest_;     ///< the channels at stretch 1, once they have been asked for

@@ -9,7 +9,7 @@
 #include "core/error.hpp"
 #include "core/linear/anderson.hpp"
 #include "core/units.hpp"
-#include "lumped/integrator.hpp"
+#include "lumped/multistep.hpp"
 #include "tests/support/lumped_runs.hpp"
 
 namespace tunica {
@@ -120,7 +120,7 @@ TEST(LumpedSearch, StepsThatLeadNowhereEnd) {
     ++told;
     EXPECT_GT(so_far.steps, 0);
   };
-  lumped::Integrator integrator(system, {}, 1e-8);
+  lumped::Multistep integrator(system, {}, 1e-8);
   integrator.start(0, 1, {0}, {});
   try {
     integrator.advance(1);

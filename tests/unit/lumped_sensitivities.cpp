@@ -49,7 +49,7 @@ Stencil stencil(const Changed& changed) {
 /// Relative step: wider for parameters that the results hardly depend on, for which the runs' own
 /// errors would else be all that is seen.
 double relative_step(std::string_view key) {
-  if (key == "blood.viscosity" || key == "blood.density") return 0.1;
+  if (key == "blood.viscosity" || key == "blood.density") return 0.3;
   if (key == "wall.bulk_modulus") return 0.06;
   if (key == "geometry.thickness") return 1e-2;
   // Points are recruited one after the other: between two the times are smooth.

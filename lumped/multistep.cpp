@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "lumped/integrator.hpp"
+#include "lumped/multistep.hpp"
 
 #include <cvodes/cvodes.h>
 #include <fmt/format.h>
@@ -31,20 +31,15 @@ struct FreeMemory {
   void operator()(void* memory) const { CVodeFree(&memory); }
 };
 
-/// After so many steps the caller is told, and unless they have brought this share of the time scale the
-/// integration counts as stuck.
-constexpr long steps_at_a_time = 1000;
-constexpr double least_share = 1e-5;
 /// Absolute tolerance of a sensitivity over its scale, relative to the relative tolerance.
 constexpr double absolute_share = 1e-2;
 
 }  // namespace
 
-struct Integrator::Implementation {
+struct Multistep::Implementation {
   System system;
   std::vector<Sensitivity> carried;
   double tolerance;
-  SensitivityErrors errors;
 
   sundials::Context context;
   std::unique_ptr<void, FreeMemory> memory;
@@ -123,14 +118,12 @@ struct Integrator::Implementation {
   }
 };
 
-Integrator::Integrator(System system, std::vector<Sensitivity> sensitivities, double tolerance,
-                       SensitivityErrors errors)
+Multistep::Multistep(System system, std::vector<Sensitivity> sensitivities, double tolerance)
     : implementation_(std::make_unique<Implementation>()) {
   auto& self = *implementation_;
   self.system = std::move(system);
   self.carried = std::move(sensitivities);
   self.tolerance = tolerance;
-  self.errors = errors;
   const int n = self.system.unknowns;
   self.state.reset(N_VNew_Serial(n, self.context));
   self.matrix.reset(SUNBandMatrix(n, self.system.bandwidth, self.system.bandwidth, self.context));
@@ -140,12 +133,10 @@ Integrator::Integrator(System system, std::vector<Sensitivity> sensitivities, do
     throw SolverFailure("CVODES could not be set up: out of memory");
 }
 
-Integrator::~Integrator() = default;
-Integrator::Integrator(Integrator&&) noexcept = default;
-Integrator& Integrator::operator=(Integrator&&) noexcept = default;
+Multistep::~Multistep() = default;
 
-void Integrator::start(double time, double end_time, const std::vector<double>& state,
-                       const std::vector<std::vector<double>>& sensitivities) {
+void Multistep::start(double time, double end_time, const std::vector<double>& state,
+                      const std::vector<std::vector<double>>& sensitivities) {
   auto& self = *implementation_;
   void* memory = self.memory.get();
   const int n = self.system.unknowns, count = self.count();
@@ -188,8 +179,7 @@ void Integrator::start(double time, double end_time, const std::vector<double>& 
               absolute_share * self.tolerance * self.system.scales[i] * self.carried[k].size;
       self.check(CVodeSensSVtolerances(memory, self.tolerance, self.sensitivity_absolute),
                  "CVodeSensSVtolerances");
-      self.check(CVodeSetSensErrCon(memory, self.errors == SensitivityErrors::controlled),
-                 "CVodeSetSensErrCon");
+      self.check(CVodeSetSensErrCon(memory, SUNTRUE), "CVodeSetSensErrCon");
     } else {
       self.check(CVodeSensReInit(memory, CV_STAGGERED, self.sensitivities), "CVodeSensReInit");
     }
@@ -198,7 +188,7 @@ void Integrator::start(double time, double end_time, const std::vector<double>& 
   self.check(CVodeSetStopTime(memory, end_time), "CVodeSetStopTime");
 }
 
-std::vector<Crossing> Integrator::advance(double time) {
+std::vector<Crossing> Multistep::advance(double time) {
   auto& self = *implementation_;
   void* memory = self.memory.get();
   if (time <= self.now) return {};
@@ -228,17 +218,17 @@ std::vector<Crossing> Integrator::advance(double time) {
   return crossings;
 }
 
-double Integrator::time() const {
+double Multistep::time() const {
   return implementation_->now;
 }
-const double* Integrator::state() const {
+const double* Multistep::state() const {
   return N_VGetArrayPointer(implementation_->state.get());
 }
-const double* Integrator::sensitivity(int k) const {
+const double* Multistep::sensitivity(int k) const {
   return N_VGetArrayPointer(implementation_->sensitivities[k]);
 }
 
-IntegratorStatistics Integrator::statistics() const {
+IntegratorStatistics Multistep::statistics() const {
   const auto& self = *implementation_;
   IntegratorStatistics total = self.before;
   if (!self.started) return total;
