@@ -47,6 +47,8 @@ struct SweepArguments {
   std::uint64_t seed = 0;
   bool gradients = false, keep_runs = false, timings = false;
   bool indices = false;
+  bool surrogate = false, no_surrogate = false;  ///< for indices; neither: where runs are dear
+  std::vector<std::string> fidelities;           ///< "lumped", "axisym:200"; empty: the one tier
   double until = 0;  ///< width of intervals of indices; 0: as many points as --sample says
   int jobs = 0;      ///< 0: all cores
   int ranks = 1;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -11,17 +10,17 @@
 #include <utility>
 
 #include "app/commands/commands.hpp"
+#include "app/commands/sweep_plan.hpp"
 #include "app/interrupt.hpp"
 #include "app/progress.hpp"
 #include "app/report/sweep_page.hpp"
 #include "app/result_folder.hpp"
 #include "app/tell.hpp"
 #include "core/error.hpp"
-#include "core/run/choose_tier.hpp"
-#include "core/scene/parameter.hpp"
 #include "core/threads.hpp"
 #include "verification/sweep/campaign.hpp"
 #include "verification/sweep/index_table.hpp"
+#include "verification/uncertainty/surrogate.hpp"
 
 namespace tunica {
 
@@ -29,53 +28,15 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Groups of a sample for indices; `times` as many as --sample says.
-std::unique_ptr<sweep::Points> points_for_indices(const SweepArguments& arguments, std::uint64_t times) {
-  if (arguments.sample.empty() || arguments.vary.empty())
-    throw InvalidInput("sweep --indices: draw points by --vary KEY=LO:HI ... --sample sobol:N");
-  const auto [sampling, count] = sweep::parse_sample(arguments.sample);
-  if (arguments.until > 0 && sampling == uncertainty::Sampling::latin_hypercube)
-    throw InvalidInput("sweep --until: a Latin hypercube does not grow; take --sample sobol:N or random:N");
-  if (arguments.until > 0 && !arguments.shard.empty())
-    throw InvalidInput(
-        "sweep --until: a shard does not know the others; compute all with one, or leave out "
-        "--until");
-  if (arguments.until < 0) throw InvalidInput("sweep --until: the width of an interval is above 0");
-  std::vector<sweep::Axis> axes;
-  for (const std::string& text : arguments.vary) axes.push_back(sweep::parse_axis(text));
-  return sweep::pick_freeze_points(std::move(axes), sampling, times * count, arguments.seed);
-}
-
-std::unique_ptr<sweep::Points> points_of(const SweepArguments& arguments) {
-  if (arguments.indices) return points_for_indices(arguments, 1);
-  const int ways = (!arguments.vary.empty()) + (!arguments.points.empty());
-  if (ways != 1) throw InvalidInput("sweep: say what varies by --vary KEY=LO:HI:N, or by --points FILE.csv");
-  if (!arguments.points.empty()) {
-    if (!arguments.sample.empty())
-      throw InvalidInput("sweep: --points lists the points, and --sample draws them; leave one out");
-    return sweep::list_points(arguments.points);
-  }
-  std::vector<sweep::Axis> axes;
-  for (const std::string& text : arguments.vary) axes.push_back(sweep::parse_axis(text));
-  if (arguments.sample.empty()) return sweep::grid_points(std::move(axes));
-  const auto [sampling, count] = sweep::parse_sample(arguments.sample);
-  return sweep::sample_points(std::move(axes), sampling, count, arguments.seed);
-}
-
-run::Question question_of(const SweepArguments& arguments, const sweep::Points& points) {
-  run::Question question;
-  for (const std::string& name : arguments.quantities) {
-    question.quantities.push_back(run::parse_quantity(name));
-    if (std::count(arguments.quantities.begin(), arguments.quantities.end(), name) > 1)
-      throw InvalidInput(fmt::format("--quantity {}: is there twice; leave one out", name));
-  }
-  if (question.quantities.empty()) question.quantities = run::known_quantities();
-  if (!arguments.gradients) return question;
-  for (const sweep::Varied& varied : points.keys())
-    if (scene::find_parameter(varied.key)->kind == scene::Kind::number) question.keys.push_back(varied.key);
-  if (question.keys.empty())
-    throw InvalidInput("--gradients: none of the keys that vary holds a number that has derivatives");
-  return question;
+void tell_of_surrogates(const sweep::IndexSummary& indices) {
+  if (indices.lost > 0) spdlog::warn("surrogates: {} points have no result and are left out", indices.lost);
+  constexpr std::size_t most_told = 5;
+  for (std::size_t k = 0; k < std::min(most_told, indices.poor.size()); ++k) spdlog::warn(indices.poor[k]);
+  if (indices.poor.size() > most_told)
+    spdlog::warn("and {} more quantities without a good surrogate; sweep.json has the reasons",
+                 indices.poor.size() - most_told);
+  spdlog::info("Sobol' indices by surrogates of {} points: the widest 95 % interval is {:.3g}",
+               indices.points, indices.widest);
 }
 
 /// indices.csv of a whole sweep that is for them; the widest interval.
@@ -83,6 +44,10 @@ double make_indices(const sweep::SweepSummary& summary, const fs::path& folder, 
   if (summary.interrupted || summary.done == 0) return 0;
   const sweep::IndexSummary indices = sweep::write_indices(folder);
   if (quiet) return indices.widest;
+  if (indices.points > 0) {
+    tell_of_surrogates(indices);
+    return indices.widest;
+  }
   if (indices.lost > 0)
     spdlog::warn("Sobol' indices: {} of {} groups have a point without a result and are left out",
                  indices.lost, indices.groups);
@@ -132,13 +97,13 @@ int sweep_command(const SweepArguments& arguments, const Program& program) {
   constexpr int most = 1024;
   if (arguments.jobs < 0 || arguments.jobs > most || arguments.ranks < 1 || arguments.ranks > most)
     throw InvalidInput(fmt::format("sweep: --jobs and --ranks are numbers from 1 to {}", most));
-  const auto points = points_of(arguments);
   run::DoorOptions options;
   options.program = fs::read_symlink("/proc/self/exe").parent_path() / "tunica";
   options.ranks = arguments.ranks;
   const run::Door door(program.tiers(), run::SceneSource(arguments.scene, arguments.overrides), options);
-  const Tier& tier = run::choose_tier(program.tiers(), arguments.tier, door.source().scene());
-  const run::Question question = question_of(arguments, *points);
+  const Scene& scene = door.source().scene();
+  const auto points = points_of(arguments, wants_surrogates(arguments, program.tiers(), scene));
+  const SweepPlan plan = plan_sweep(arguments, program.tiers(), scene, *points);
   sweep::Shard shard;
   std::vector<std::string> parts{"sweep"};
   if (!arguments.shard.empty()) {
@@ -157,7 +122,7 @@ int sweep_command(const SweepArguments& arguments, const Program& program) {
 
   // A process computes with all the cores that it is given; several of them side by side would wait for each
   // other's memory.
-  const int jobs = arguments.jobs > 0 ? arguments.jobs : tier.computes() ? available_threads() : 1;
+  const int jobs = arguments.jobs > 0 ? arguments.jobs : plan.all_compute ? available_threads() : 1;
   heed_interrupts(arguments.quiet);
   SweepDisplay display(arguments.quiet);
   sweep::SweepControl control;
@@ -172,20 +137,22 @@ int sweep_command(const SweepArguments& arguments, const Program& program) {
   const std::optional<double> until = arguments.until > 0 ? std::optional(arguments.until) : std::nullopt;
   const auto compute = [&](sweep::Points& of) {
     const sweep::Campaign campaign{
-        door, arguments.tier, of, question, shard, jobs, arguments.keep_runs, arguments.timings, until};
+        door,  plan.tier,      of, plan.question, shard, jobs, arguments.keep_runs, arguments.timings,
+        until, plan.surrogates};
     return sweep::run_sweep(campaign, folder, control);
   };
   sweep::SweepSummary summary = compute(*points);
-  if (arguments.indices && shard.is_whole()) {
-    // Each time as many points again as there are, up to where intervals would take days to halve.
-    constexpr std::uint64_t most_points = std::uint64_t{1} << 24;
+  if ((plan.surrogates || plan.pick_freeze) && shard.is_whole()) {
+    // Up to where intervals would take days to halve, or points no longer enter a surrogate.
+    const std::uint64_t most_points = plan.surrogates ? std::uint64_t{uncertainty::most_points} : 1U << 24;
     std::uint64_t times = 1;
     double widest = make_indices(summary, folder, arguments.quiet);
-    while (until && widest > *until && summary.count < most_points) {
-      times *= 2;
+    while (until && widest > *until && summary.count < most_points && !summary.interrupted) {
+      // Dear points come in batches; others as many again as there are, as intervals halve with four times.
+      times = plan.surrogates ? times + 1 : 2 * times;
       control.resume = true;
       control.replace = false;
-      summary = compute(*points_for_indices(arguments, times));
+      summary = compute(*points_of(arguments, plan.surrogates, times));
       widest = make_indices(summary, folder, arguments.quiet);
     }
     if (until && widest > *until)

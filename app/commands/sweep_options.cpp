@@ -14,6 +14,8 @@ constexpr const char* sweep_examples =
   tunica sweep scenes/cylinder.toml --vary "outlet.resistance=lognormal(1e6, 1e5)" --sample lhs:200 --gradients
   tunica sweep scenes/cylinder.toml --vary outlet.resistance=5e5:2e6 --vary tether.stiffness=3e6:3e7:log
                --sample sobol:256 --indices --until 0.05 --tier lumped
+  tunica sweep scenes/cylinder.toml --vary outlet.resistance=5e5:2e6 --vary tether.stiffness=3e6:3e7:log
+               --sample sobol:2000 --fidelities lumped,axisym:100
   tunica sweep scenes/cylinder.toml --points mine.csv --quantity pressure.max --quantity von_mises.max
   tunica sweep scenes/cylinder.toml --vary ... --shard 1/4 --out part1
   tunica sweep --merge part1 part2 part3 part4 --out all
@@ -51,10 +53,26 @@ CLI::App* add_sweep_command(CLI::App& app, SweepArguments& arguments) {
       ->allow_extra_args(false);
   auto* indices =
       command->add_flag("--indices", arguments.indices,
-                        "First and total Sobol' indices with 95 % intervals, in indices.csv: N of "
-                        "--sample counts groups of d + 2 points for d keys");
+                        "First and total Sobol' indices with 95 % intervals, in indices.csv: in 0D N of "
+                        "--sample counts groups of d + 2 points for d keys; elsewhere, and with --points, "
+                        "they come from surrogates of the points");
+  auto* surrogate = command->add_flag("--surrogate", arguments.surrogate,
+                                      "With --indices: from surrogates also in 0D; N counts points");
+  surrogate->needs(indices);
+  command
+      ->add_flag("--no-surrogate", arguments.no_surrogate,
+                 "With --indices: not from surrogates, whatever the tier; N counts groups")
+      ->needs(indices)
+      ->excludes(surrogate);
+  option("--fidelities", arguments.fidelities,
+         "Tiers from cheap to dear, separated by commas: the first computes all points, each other one the "
+         "first N of them (default: a sixteenth of those before it); indices and means of the dearest in "
+         "sweep.json, and where the tiers differ in fidelities.csv",
+         "TIER[:N],...")
+      ->delimiter(',')
+      ->allow_extra_args(false);
   option("--until", arguments.until,
-         "With --indices: double the sample until every interval is at most so wide (0.02)", "WIDTH")
+         "With --indices: take more points until every interval is at most so wide (0.02)", "WIDTH")
       ->needs(indices);
   command->add_flag("--gradients", arguments.gradients,
                     "Add the derivatives by the keys that vary (0D tier)");

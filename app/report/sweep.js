@@ -50,6 +50,10 @@
   function drawIndices() {
     const parent = byId("indices"), found = data.indices, quantity = quantities[chosen()];
     const own = found ? found.quantity.map((name, at) => at).filter(at => found.quantity[at] === quantity.name) : [];
+    const surrogate = found?.surrogates.find(one => one.quantity === quantity.name);
+    const known = own.some(at => found.total[at] !== null);
+    if (!known && surrogate?.reason)
+      return show(parent, heading("Sobol\u2019 indices"), element("p", {class: "note"}, `No indices of ${quantity.name}: ${surrogate.reason}.`));
     if (!own.length)
       return show(parent, heading("Sobol\u2019 indices"), element("p", {class: "note"}, found ? `No indices of ${quantity.name} in indices.csv.` : "No indices.csv among the results."));
     own.sort((a, b) => found.total[b] - found.total[a]);
@@ -61,7 +65,9 @@
     const [low] = Plots.extremes([0, ...rows.map(row => row.low)]), [, high] = Plots.extremes([1, ...rows.map(row => row.high)]);
     show(parent, heading("Sobol\u2019 indices"),
          Plots.bars(widthOf(parent), `Sobol\u2019 indices of ${quantity.name}: ${rows.map(row => row.text).join("; ")}`, rows, {lowest: low, highest: high, title: "share of the variance"}),
-         element("figcaption", {}, "First order: the key alone. Total: with its part in interactions. Whiskers: confidence intervals of indices.csv."));
+         element("figcaption", {}, "First order: the key alone. Total: with its part in interactions. Whiskers: " + (surrogate
+           ? `95 % intervals, with what the surrogate misses. It is ${surrogate.kind} of ${surrogate.points} points; held-out Q\u00b2 ${short(surrogate.q2, 4)}${surrogate.reason ? `: ${surrogate.reason}` : ""}.`
+           : "confidence intervals of indices.csv.")));
   }
   function drawEffects() {
     const quantity = quantities[chosen()];

@@ -10,6 +10,7 @@
 #include "app/report/html.hpp"
 #include "app/report/json_object.hpp"
 #include "app/report/sections.hpp"
+#include "app/report/sweep_indices.hpp"
 #include "app/report/sweep_table.hpp"
 #include "core/error.hpp"
 #include "core/observables/build_info.hpp"
@@ -90,41 +91,6 @@ std::vector<double> taken(const std::vector<double>& values, const std::vector<s
   std::vector<double> found;
   for (const std::size_t row : rows) found.push_back(values[row]);
   return found;
-}
-
-/// indices.csv has no units, so that its numbers are read as texts.
-std::vector<double> plain_numbers(const observables::Table& table, const char* name, const fs::path& file) {
-  const observables::Column* column = table.find(name);
-  if (!column)
-    throw InvalidInput(fmt::format("{}: has no column {}; compute the indices again", file.string(), name));
-  if (!column->is_text()) return column->values;
-  std::vector<double> numbers;
-  for (const std::string& text : column->labels) {
-    double value = observables::none;
-    if (const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-        !text.empty() && (error != std::errc{} || end != text.data() + text.size()))
-      throw InvalidInput(fmt::format("{}: {} is no number, in column {}", file.string(), text, name));
-    numbers.push_back(value);
-  }
-  return numbers;
-}
-
-void append_indices(std::string& json, const fs::path& folder) {
-  const fs::path file = folder / "indices.csv";
-  if (!fs::exists(file)) {
-    json += "null";
-    return;
-  }
-  const observables::Table table = observables::read_csv(file.string());
-  const observables::Column *quantity = table.find("quantity"), *parameter = table.find("parameter");
-  if (!quantity || !parameter || !quantity->is_text() || !parameter->is_text())
-    throw InvalidInput(fmt::format("{}: has no columns quantity and parameter", file.string()));
-  const auto append_text = [](std::string& out, const std::string& text) { out += script_string(text); };
-  Object object(json);
-  append_list(object.key("quantity"), quantity->labels, append_text);
-  append_list(object.key("parameter"), parameter->labels, append_text);
-  for (const char* name : {"first", "first_low", "first_high", "total", "total_low", "total_high"})
-    append_array(object.key(name), plain_numbers(table, name, file), 1, digits);
 }
 
 /// Points with whole results in the folder: those chosen, then others by their numbers.
@@ -254,7 +220,7 @@ std::string make_sweep_report(const fs::path& folder, const std::vector<std::uin
       });
     });
     append_points(all.key("points"), table);
-    append_indices(all.key("indices"), folder);
+    append_indices(all.key("indices"), folder, campaign);
     append_list(all.key("curve_points"), numbers,
                 [](std::string& out, std::uint64_t point) { out += fmt::format("{}", point); });
     all.key("curves") += stored.empty() ? "{\"runs\":[]}" : chart_data(summarize(stored));
@@ -268,6 +234,7 @@ std::string make_sweep_report(const fs::path& folder, const std::vector<std::uin
        {"uplot_style", std::string(embedded::uplot_style())},
        {"style", std::string(embedded::report_style())},
        {"sweep_style", std::string(embedded::sweep_style())},
+       {"tiers", tiers_section(folder, campaign)},
        {"failures", failures_section(table)},
        {"size", remark_on_size(table, drawn_rows(table).size())},
        {"scene", escape(campaign.value("scene_toml", ""))},

@@ -12,6 +12,7 @@
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "verification/sweep/campaign.hpp"
+#include "verification/sweep/fidelity_points.hpp"
 
 namespace tunica::report {
 
@@ -158,9 +159,13 @@ SweepTable read_sweep(const std::filesystem::path& folder) {
   const double share = static_cast<double>(SweepTable::most_rows) / static_cast<double>(table.ended);
   const std::uint64_t threshold =
       share >= 1 ? std::numeric_limits<std::uint64_t>::max() : static_cast<std::uint64_t>(share * 0x1p64);
+  const auto fidelities =
+      sweep::fidelities_of(campaign.at("design"), campaign.value("tier", ""), campaign.at("points"));
   stored.each([&](const sweep::Row& row) {
     const bool is_done = row.status == "done";
     if (!is_done) count_failure(table.failures, row);
+    // Curves and means of several tiers together would be those of none.
+    if (sweep::standing_of(fidelities, row.point).level > 0) return;
     if (lot_of(row.point) > threshold) return;
     table.numbers.push_back(row.point);
     table.is_done.push_back(is_done ? 1 : 0);

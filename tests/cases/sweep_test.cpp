@@ -358,10 +358,8 @@ TEST_F(Sweep, ATableThatAnotherProgramLocksIsToldOf) {
   EXPECT_EQ(csv("locked"), before);
 }
 
-// The derivative at the middle of three points against the difference of the outer ones. What is left is of
-// second order in the step of 0.1 %, and the tolerance of the integration. The pressure's maximum is the
-// resistance's doing, and the tether governs how far the lumen opens; shards make the same table, and a
-// width that is asked for is reached by growing the sample.
+// The pressure's maximum is the resistance's doing, and the tether governs how far the lumen opens; shards
+// make the same table, and a width that is asked for is reached by growing the sample.
 TEST_F(Sweep, IndicesSayWhatGoverns) {
   const Texts sample{
       "--vary",   "outlet.resistance=5e5:2e6", "--vary", "tether.stiffness=3e6:3e7", "--sample", "sobol:64",
@@ -418,6 +416,8 @@ TEST_F(Sweep, IndicesSayWhatGoverns) {
   }
 }
 
+// The derivative at the middle of three points against the difference of the outer ones. What is left is of
+// second order in the step of 0.1 %, and the tolerance of the integration.
 TEST_F(Sweep, GradientsAreThoseOfTheTable) {
   // Differences of a thousandth show the steps of looser tolerances.
   ASSERT_EQ(sweep("slope", {"--vary", "outlet.resistance=0.999e6:1.001e6:3", "--gradients", "--set",

@@ -17,6 +17,7 @@
 #include "core/scene/message.hpp"
 #include "core/scene/parameter.hpp"
 #include "verification/sweep/execute.hpp"
+#include "verification/sweep/fidelity_points.hpp"
 
 namespace tunica::sweep {
 
@@ -69,6 +70,7 @@ void check_bounds(const Json& parameter) {
 /// what makes them none.
 void check_keys(const Campaign& campaign) {
   std::optional<InvalidInput> refusal;
+  const auto fidelities = fidelities_of(campaign.points.describe(), campaign.tier, campaign.points.count());
   // Of long designs the first points will do, so that a sequence is not gone through before the sweep begins.
   constexpr std::uint64_t enough = 64, far = 1'000'000;
   const std::uint64_t end = std::min(far, campaign.points.count()),
@@ -86,7 +88,8 @@ void check_keys(const Campaign& campaign) {
         throw InvalidInput(fmt::format("--vary {}: {}", varied.key, reason));
       }
       // Throws when the tier has no such scenes, or no derivatives by these keys.
-      run::choose_tier(campaign.door.tiers(), campaign.tier, scene);
+      for (const Fidelity& fidelity : fidelities)
+        run::choose_tier(campaign.door.tiers(), fidelity.tier, scene);
       return;
     } catch (const InvalidInput& error) {
       if (std::string_view(error.what()).starts_with("--vary")) throw;
@@ -112,6 +115,7 @@ Json describe(const Campaign& campaign) {
   all["gradients"] = campaign.question.keys;
   all["timings"] = campaign.timings;
   if (campaign.until) all["until"] = *campaign.until;
+  if (campaign.surrogates) all["made_of_points"] = "surrogates";
   all["input_files"] = input_files(scene);
   all["scene_toml"] = tunica::describe(scene);
   all["scene_file"] = campaign.door.source().file().string();
@@ -177,8 +181,8 @@ void write_campaign(Json all, const Shard& shard, const SweepSummary& summary, c
 void remove_sweep(const fs::path& folder) {
   std::error_code not_there;
   // The table first: what is left of a removal that is cut short is no sweep.
-  for (const char* file :
-       {"sweep.json", "sweep.db", "sweep.db-wal", "sweep.db-shm", "sweep.csv", "indices.csv", "report.html"})
+  for (const char* file : {"sweep.json", "sweep.db", "sweep.db-wal", "sweep.db-shm", "sweep.csv",
+                           "indices.csv", "fidelities.csv", "report.html"})
     fs::remove(folder / file, not_there);
 }
 

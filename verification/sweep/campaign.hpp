@@ -45,6 +45,7 @@ struct Campaign {
   bool timings = false;    ///< in sweep.csv
   /// Width of intervals that the number of points is to reach, which then does not tell sweeps apart.
   std::optional<double> until = {};
+  bool surrogates = false;  ///< are to be made of the points: SurrogateTable
 };
 
 /// How a sweep goes on.

@@ -81,7 +81,8 @@ class Execution {
     const ThreadLimit one(1);
     RunControl control;
     control.interrupted = [this] { return asked_to_stop(); };
-    const run::Case what{campaign_.tier, overrides(campaign_.points, job.row.keys)};
+    const std::string tier = campaign_.points.tier(job.row.point);
+    const run::Case what{tier.empty() ? campaign_.tier : tier, overrides(campaign_.points, job.row.keys)};
     const run::Outcome outcome = campaign_.keep_runs ? kept(what, job.row.point, control)
                                                      : campaign_.door.ask(what, campaign_.question, control);
     job.is_ended = outcome.ending != run::Ending::interrupted;

@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "verification/sweep/campaign.hpp"
+#include "verification/sweep/surrogate_table.hpp"
 #include "verification/uncertainty/indices.hpp"
 
 namespace tunica::sweep {
@@ -33,19 +34,32 @@ std::string cell(double value) {
 }  // namespace
 
 bool has_indices(const std::filesystem::path& folder) {
-  return read_campaign(folder).at("design").contains("pick_freeze");
+  const auto campaign = read_campaign(folder);
+  return campaign.at("design").contains("pick_freeze") || makes_surrogates(campaign);
+}
+
+std::string index_head() {
+  return "quantity,parameter,first,first_low,first_high,total,total_low,total_high\n";
+}
+
+std::string index_line(const std::string& quantity, const std::string& key,
+                       const uncertainty::SobolIndices& indices) {
+  const auto& [one, all] = indices;
+  return fmt::format("{},{},{},{},{},{},{},{}\n", quantity, key, cell(one.value), cell(one.low),
+                     cell(one.high), cell(all.value), cell(all.low), cell(all.high));
 }
 
 IndexSummary write_indices(const std::filesystem::path& folder) {
   const auto campaign = read_campaign(folder);
+  if (makes_surrogates(campaign)) return write_surrogates(folder);
   if (!campaign.at("design").contains("pick_freeze"))
     throw InvalidInput(
         fmt::format("{}: no sample for Sobol' indices; make one with --indices", folder.string()));
   const Table table = table_of(campaign, folder, Table::Mode::read);
   const std::size_t inputs = table.keys().size(), quantities = campaign.at("quantities").size();
   const std::uint64_t points = campaign.at("points"), groups = points / (inputs + 2);
-  IndexSummary summary{0, groups, 0};
-  std::string text = "quantity,parameter,first,first_low,first_high,total,total_low,total_high\n";
+  IndexSummary summary{0, groups};
+  std::string text = index_head();
   // Quantities are gone through in batches, so that memory does not grow with both their number and the
   // points'.
   constexpr std::uint64_t most_numbers = 8'000'000;
@@ -70,9 +84,7 @@ IndexSummary write_indices(const std::filesystem::path& folder) {
       if (whole > 0 && whole < uncertainty::fewest_groups) summary.widest = unknown;
       for (std::size_t k = 0; k < inputs; ++k) {
         const auto& [one, all] = found[k];
-        text += fmt::format("{},{},{},{},{},{},{},{}\n", table.numbers()[q].name, table.keys()[k].key,
-                            cell(one.value), cell(one.low), cell(one.high), cell(all.value), cell(all.low),
-                            cell(all.high));
+        text += index_line(table.numbers()[q].name, table.keys()[k].key, found[k]);
         if (observables::is_none(one.value)) continue;
         for (const auto& estimate : {one, all})
           summary.widest = observables::is_none(estimate.low)

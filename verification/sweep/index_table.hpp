@@ -3,6 +3,10 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
+#include <vector>
+
+#include "verification/uncertainty/indices.hpp"
 
 namespace tunica::sweep {
 
@@ -10,17 +14,26 @@ inline constexpr const char* indices_file = "indices.csv";
 
 /// What the indices of a sweep come to.
 struct IndexSummary {
-  double widest = 0;  ///< of all intervals; 0 where no quantity varies
-  std::uint64_t groups = 0,
-                lost = 0;  ///< points of a group count together: those without all results are lost
+  double widest = 0;         ///< of all intervals; 0 where no quantity varies
+  std::uint64_t groups = 0;  ///< of a pick-freeze sample; the points of one count together
+  std::uint64_t lost = 0;    ///< of them, or of the points, those without all results
+  std::uint64_t points = 0;  ///< that surrogates are made of; 0 without surrogates
+  /// Quantities whose surrogate misses much, or that have none, with the reason; one line each.
+  std::vector<std::string> poor = {};
 };
 
-/// Writes indices.csv of a sweep whose points are a pick-freeze sample: first and total Sobol' indices of
-/// each quantity by each key, with 95 % intervals (uncertainty::sobol_indices); empty cells for quantities
-/// that the law or tier has not or that do not vary. Throws InvalidInput for other sweeps, OutputFailure.
+/// Writes indices.csv of a sweep that is for them: first and total Sobol' indices of each quantity by each
+/// key, with 95 % intervals; of a pick-freeze sample by uncertainty::sobol_indices, else by write_surrogates.
+/// Empty cells for quantities that the law or tier has not or that do not vary. Throws InvalidInput for other
+/// sweeps, OutputFailure.
 IndexSummary write_indices(const std::filesystem::path& folder);
 
 /// Whether a folder's sweep is of that kind.
 bool has_indices(const std::filesystem::path& folder);
+
+/// The lines of one quantity by one key, and the head of them all.
+std::string index_head();
+std::string index_line(const std::string& quantity, const std::string& key,
+                       const uncertainty::SobolIndices& indices);
 
 }  // namespace tunica::sweep

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <charconv>
 #include <set>
 
@@ -154,7 +155,7 @@ class PickFreezeSample final : public Sample {
 
 class List final : public Points {
  public:
-  explicit List(const std::filesystem::path& file) {
+  List(const std::filesystem::path& file, std::vector<Axis> laws) : laws_(std::move(laws)) {
     constexpr std::size_t largest = 1'000'000'000;
     const std::string text = scene::load_text(file, "list of points", ".csv", largest);
     const auto lines = rows_of(text, file.string());
@@ -190,6 +191,7 @@ class List final : public Points {
         values_.push_back(
             keys_[k].unit.empty() ? cells[k] : number_text(cells[k], factors[k], file, number, keys_[k].key));
     }
+    if (!laws_.empty()) check_laws(file);
   }
   const std::vector<Varied>& keys() const override { return keys_; }
   std::uint64_t count() const override { return values_.size() / keys_.size(); }
@@ -199,7 +201,10 @@ class List final : public Points {
   }
   Json describe() const override {
     Json keys = Json::array();
-    for (const Varied& key : keys_) keys.push_back({{"key", key.key}, {"unit", key.unit}});
+    for (std::size_t k = 0; k < keys_.size(); ++k) {
+      keys.push_back({{"key", keys_[k].key}, {"unit", keys_[k].unit}});
+      if (!laws_.empty()) keys.back()["distribution"] = laws_[k].marginal->text();
+    }
     return {{"kind", "list"},
             {"parameters", std::move(keys)},
             {"values", fmt::format("{:016x}", checksum(fmt::format("{}", fmt::join(values_, "\n"))))}};
@@ -207,6 +212,34 @@ class List final : public Points {
 
  private:
   using Row = std::pair<std::size_t, std::vector<std::string>>;  ///< line and cells
+
+  /// Brings the distributions into the order of the keys.
+  void check_laws(const std::filesystem::path& file) {
+    static_cast<void>(keys_of(laws_));
+    laws_ = sampled(std::move(laws_));
+    std::vector<Axis> in_order;
+    for (const Varied& key : keys_) {
+      const auto law =
+          std::find_if(laws_.begin(), laws_.end(), [&](const Axis& axis) { return axis.key == key.key; });
+      if (law == laws_.end())
+        throw InvalidInput(
+            fmt::format("{}: {} varies; for indices say its range or distribution too, as in --vary {}=LO:HI",
+                        file.string(), key.key, key.key));
+      in_order.push_back(*law);
+    }
+    if (in_order.size() < laws_.size())
+      for (const Axis& axis : laws_)
+        if (std::none_of(keys_.begin(), keys_.end(), [&](const Varied& key) { return key.key == axis.key; }))
+          throw InvalidInput(fmt::format("--vary {}: {} has no such column, so that it does not vary",
+                                         axis.key, file.string()));
+    laws_ = std::move(in_order);
+    for (std::size_t i = 0; i < values_.size(); ++i) {
+      const Axis& law = laws_[i % keys_.size()];
+      if (const double value = std::stod(values_[i]); !law.marginal->contains(value))
+        throw InvalidInput(fmt::format("{}: {} = {} of point {} is outside of {}", file.string(), law.key,
+                                       values_[i], i / keys_.size(), law.marginal->text()));
+    }
+  }
 
   static std::vector<Row> rows_of(const std::string& text, const std::string& name) {
     std::vector<Row> rows;
@@ -261,6 +294,7 @@ class List final : public Points {
   }
 
   std::vector<Varied> keys_;
+  std::vector<Axis> laws_;           ///< of the keys, or none
   std::vector<std::string> values_;  ///< of one point after the other
 };
 
@@ -280,8 +314,8 @@ std::unique_ptr<Points> pick_freeze_points(std::vector<Axis> axes, uncertainty::
   return std::make_unique<PickFreezeSample>(std::move(axes), sampling, groups, seed);
 }
 
-std::unique_ptr<Points> list_points(const std::filesystem::path& file) {
-  return std::make_unique<List>(file);
+std::unique_ptr<Points> list_points(const std::filesystem::path& file, std::vector<Axis> laws) {
+  return std::make_unique<List>(file, std::move(laws));
 }
 
 std::pair<uncertainty::Sampling, std::uint64_t> parse_sample(const std::string& text) {

@@ -29,6 +29,8 @@ class Points {
   virtual std::vector<std::string> values(std::uint64_t point) = 0;
   /// What the points are made of, enough to tell whether two sweeps have the same.
   virtual nlohmann::ordered_json describe() const = 0;
+  /// The tier that computes a point, where points differ in it; empty: the sweep's. For any thread.
+  virtual std::string tier(std::uint64_t) const { return {}; }
 };
 
 /// Every combination of the axes' values, the last axis fastest. Throws InvalidInput when a key is there
@@ -47,9 +49,10 @@ std::unique_ptr<Points> pick_freeze_points(std::vector<Axis> axes, uncertainty::
 /// Reads "sobol:N", "lhs:N" or "random:N".
 std::pair<uncertainty::Sampling, std::uint64_t> parse_sample(const std::string& text);
 
-/// The rows of a CSV file: a header of keys, "key" or "key[unit]", then values. Throws InvalidInput naming
-/// file, line and column.
-std::unique_ptr<Points> list_points(const std::filesystem::path& file);
+/// The rows of a CSV file: a header of keys, "key" or "key[unit]", then values. `laws` are distributions of
+/// the keys, for surrogates that are made of the points: of each key or of none. Throws InvalidInput naming
+/// file, line and column, a key without its distribution, or a value outside of it.
+std::unique_ptr<Points> list_points(const std::filesystem::path& file, std::vector<Axis> laws = {});
 
 /// "key=value" for each key.
 std::vector<std::string> overrides(const Points& points, const std::vector<std::string>& values);

@@ -116,6 +116,17 @@ double Marginal::probability(double x) const {
   }
 }
 
+bool Marginal::contains(double x) const {
+  switch (kind) {
+    case Kind::normal:
+      return true;
+    case Kind::lognormal:
+      return x > 0;
+    default:
+      return a <= x && x <= b;
+  }
+}
+
 double Marginal::mean() const {
   switch (kind) {
     case Kind::uniform:

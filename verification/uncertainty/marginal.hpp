@@ -23,6 +23,8 @@ struct Marginal {
   double quantile(double p) const;
   /// Probability that the number is at most x.
   double probability(double x) const;
+  /// Whether the number can be x, ends included.
+  bool contains(double x) const;
   double mean() const;
   double standard_deviation() const;
   /// "uniform(1, 2)", as parse_marginal reads it; a log-uniform one as "loguniform(1, 2)".
