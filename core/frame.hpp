@@ -4,7 +4,7 @@
 #include <array>
 #include <numbers>
 
-#include "core/tensor.hpp"
+#include "core/kinematics.hpp"
 #include "core/wall/collagen.hpp"
 
 namespace tunica::frame {
@@ -17,6 +17,12 @@ struct Radial {
   template <class S>
   static Tensor<S> gradient(const S& value, const S& slope, const S& radius) {
     return Tensor<S>::diagonal(slope, value / radius, S(0.0));
+  }
+
+  /// What the laws need of it.
+  template <class S>
+  static Kinematics<S> kinematics(const S& value, const S& slope, const S& radius) {
+    return Kinematics<S>::diagonal(slope, value / radius, S(0.0));
   }
 
   /// P : grad of the test function (value, slope), the integrand of the internal virtual work.

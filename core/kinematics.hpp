@@ -35,20 +35,26 @@ struct Kinematics {
 
   explicit Kinematics(const Tensor<S>& gradient)
       : displacement_gradient(gradient), deformation_gradient(Tensor<S>::identity() + gradient) {
-    using std::expm1;
-    using std::log1p;
     const Tensor<S> transposed = transpose(gradient);
     left_cauchy_green_change = gradient + transposed + gradient * transposed;
     const Tensor<S> minors = cofactor(gradient);
-    volume_change = volume_change_from(gradient, minors);
     // cof(I + H) = (1 + tr H) I - H^T + cof H
     deformation_cofactor = minors - transposed;
     const S diagonal = 1.0 + trace(gradient);
     for (int i = 0; i < 3; ++i) deformation_cofactor(i, i) = deformation_cofactor(i, i) + diagonal;
-    jacobian = 1.0 + volume_change;
-    log_jacobian = log1p(volume_change);
-    isochoric_factor_change = expm1((-2.0 / 3.0) * log_jacobian);
-    isochoric_factor = 1.0 + isochoric_factor_change;
+    set_volume(volume_change_from(gradient, minors));
+  }
+
+  /// Of H = diag(a, b, c), without the products of zeros that a ring would spend most of its time on.
+  static Kinematics diagonal(const S& a, const S& b, const S& c) {
+    Kinematics k;
+    k.displacement_gradient = Tensor<S>::diagonal(a, b, c);
+    k.deformation_gradient = Tensor<S>::diagonal(1.0 + a, 1.0 + b, 1.0 + c);
+    k.left_cauchy_green_change = Tensor<S>::diagonal(a * (2.0 + a), b * (2.0 + b), c * (2.0 + c));
+    const S bc = b * c, ca = c * a, ab = a * b;
+    k.deformation_cofactor = Tensor<S>::diagonal(1.0 + (b + c) + bc, 1.0 + (c + a) + ca, 1.0 + (a + b) + ab);
+    k.set_volume((a + b + c) + (bc + ca + ab) + a * bc);
+    return k;
   }
 
   /// I1bar - 3 = J^(-2/3) tr(b - I) + 3 (J^(-2/3) - 1)
@@ -59,6 +65,20 @@ struct Kinematics {
   /// First Piola-Kirchhoff stress P = tau F^-T of a Kirchhoff stress tau.
   Tensor<S> piola_from_kirchhoff(const Tensor<S>& kirchhoff) const {
     return (1.0 / jacobian) * (kirchhoff * deformation_cofactor);
+  }
+
+ private:
+  Kinematics() = default;
+
+  /// What follows from J - 1.
+  void set_volume(const S& change) {
+    using std::expm1;
+    using std::log1p;
+    volume_change = change;
+    jacobian = 1.0 + volume_change;
+    log_jacobian = log1p(volume_change);
+    isochoric_factor_change = expm1((-2.0 / 3.0) * log_jacobian);
+    isochoric_factor = 1.0 + isochoric_factor_change;
   }
 };
 

@@ -10,13 +10,14 @@
 
 namespace tunica::lumped {
 
-/// Collocation at the three Radau points of each step, for systems of a few unknowns whose states are asked for
-/// at many times: Radau IIA of order 5, implicit and L-stable (Hairer and Wanner, Solving Ordinary Differential
-/// Equations II, IV.5 and IV.8).
+/// Collocation at the three Radau points of each step, for systems of a few unknowns whose states are asked
+/// for at many times: Radau IIA of order 5, implicit and L-stable (Hairer and Wanner, Solving Ordinary
+/// Differential Equations II, IV.5 and IV.8).
 ///   Y_i = y_0 + h sum_j a_ij f(t_0 + c_j h, Y_j),  y_1 = Y_3,
-/// solved by Newton's method with df/dy of an earlier step for as long as that converges quickly. Between their
-/// ends steps are read from the polynomial through y_0 and Y_i, whose error is of the order of that of the
-/// embedded formula of order 3, which steps are chosen by. Crossings are found on it. Carries no sensitivities.
+/// solved by Newton's method with df/dy of an earlier step for as long as that converges quickly. Between
+/// their ends steps are read from the polynomial through y_0 and Y_i, whose error is of the order of that of
+/// the embedded formula of order 3, which steps are chosen by. Crossings are found on it. Carries no
+/// sensitivities.
 class Collocation final : public Integrator {
  public:
   /// Dense systems of three times as many unknowns are solved.

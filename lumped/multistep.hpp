@@ -10,7 +10,8 @@ namespace tunica::lumped {
 /// Variable-order, variable-step BDF of CVODES with staggered forward sensitivities and root finding.
 class Multistep final : public Integrator {
  public:
-  /// `tolerance` is relative and local, that is, per step; sensitivities take part in the control of the step.
+  /// `tolerance` is relative and local, that is, per step; sensitivities take part in the control of the
+  /// step.
   Multistep(System system, std::vector<Sensitivity> sensitivities, double tolerance);
   ~Multistep() override;
 

@@ -16,8 +16,8 @@ using radial::LumenStretch;
 
 namespace {
 
-/// As many as resolve the curve's own pieces to the same accuracy, and two more: stress is a steeper function of
-/// the stretch than displacement.
+/// As many as resolve the curve's own pieces to the same accuracy, and two more: stress is a steeper function
+/// of the stretch than displacement.
 int terms_for(double accuracy) {
   return accuracy < 1e-8 ? 14 : 8;
 }

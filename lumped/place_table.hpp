@@ -13,9 +13,9 @@ namespace tunica::lumped {
 
 /// Fibres and stress at the places of a wall's curve as functions of the lumen stretch.
 ///
-/// They depend on nothing else, so that runs of one wall, and the many rows of one run, share what is tabulated:
-/// Chebyshev series on the pieces of the curve, made when first asked for. Where a series does not resolve a
-/// piece, values are computed from the law as they are asked for.
+/// They depend on nothing else, so that runs of one wall, and the many rows of one run, share what is
+/// tabulated: Chebyshev series on the pieces of the curve, made when first asked for. Where a series does not
+/// resolve a piece, values are computed from the law as they are asked for.
 ///
 /// Not safe for use by several threads at once, as the curve.
 class PlaceTable {
@@ -38,8 +38,8 @@ class PlaceTable {
   std::optional<Fiber> computed_fiber(radial::LumenStretch stretch, int place) const;
 
  private:
-  /// Series of values of one kind at one place on a piece, one after the other; empty where they do not resolve
-  /// it.
+  /// Series of values of one kind at one place on a piece, one after the other; empty where they do not
+  /// resolve it.
   using Series = std::vector<double>;
   struct Piece {
     double lower, upper;

@@ -36,17 +36,18 @@ template <class P, class S>
 Fluxes<S> fluxes(const wall::Law<P>& law, const S& area, const S& area_slope, const P& radius) {
   const WallState<S> m = motion(area, area_slope, radius);
   const S place(radius);
-  const Tensor<S> gradient = frame::Radial::gradient(m.displacement, m.radial_slope, place);
   const S current = place + m.displacement;
   const S per_area = place / (current * current);
   return std::visit(
       [&](const auto& l) -> Fluxes<S> {
         if constexpr (wall::HasFamilies<std::decay_t<decltype(l)>>) {
-          const Tensor<S> kirchhoff = l.isochoric_kirchhoff(Kinematics<S>(gradient), frame::Radial::axes());
+          const Tensor<S> kirchhoff = l.isochoric_kirchhoff(
+              frame::Radial::kinematics(m.displacement, m.radial_slope, place), frame::Radial::axes());
           const S change = area_slope / place;
           return {S(kirchhoff(0, 0) / (1.0 + change) + l.volumetric.slope(change)),
                   S((kirchhoff(1, 1) - kirchhoff(0, 0)) * per_area)};
         } else {
+          const Tensor<S> gradient = frame::Radial::gradient(m.displacement, m.radial_slope, place);
           const Tensor<S> piola = l.piola(gradient, frame::Radial::axes());
           return {
               S(piola(0, 0) / (1.0 + gradient(1, 1))),

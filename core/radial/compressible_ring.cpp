@@ -56,8 +56,9 @@ CompressibleRing::CompressibleRing(Ring<double> ring, std::vector<Seeded> seeded
 
 Field CompressibleRing::field(const Solution& solution) const {
   return [this, &solution](double xi) {
-    const auto s = state(merged_, solution, solution.inner, solution.nodal, xi);
-    return std::pair{s.displacement, s.radial_slope};
+    const auto place = place_of(merged_, solution, solution.inner, solution.nodal, xi);
+    const auto moved = motion(place.area, place.area_slope, place.radius);
+    return std::pair{moved.displacement, moved.radial_slope};
   };
 }
 
@@ -104,13 +105,14 @@ void CompressibleRing::assemble(const Ring<double>& ring, const Solution& soluti
       motion(seed(solution.inner + solution.nodal.back()), Dual<double, 1>(0.0), radius).displacement);
   system.pressure = tether.value;
   system.pressure_by_inner = tether.derivative[0];
-  std::vector<double> slope(n);
+  std::vector<double> shape(n), slope(n), of_element(static_cast<std::size_t>(n) * n);
   for (std::size_t e = 0; e < solution.mesh.size(); ++e) {
     const Interval& cell = solution.mesh[e];
     const auto& law = ring.layers[cell.layer].law;
     const double half = 0.5 * (cell.upper - cell.lower);
     const double half_width = half * ring.thickness;
     const std::size_t first = e * (n - 1);
+    std::fill(of_element.begin(), of_element.end(), 0.0);
     for (std::size_t q = 0; q < line_.rule().size(); ++q) {
       const double place = ring.radius(cell.lower + half * (1 + line_.rule()[q].position));
       double area = 0, area_slope = 0;
@@ -125,21 +127,23 @@ void CompressibleRing::assemble(const Ring<double>& ring, const Solution& soluti
       const double weight = line_.rule()[q].weight * half_width;
       system.pressure += weight * hoop.value;
       system.pressure_by_inner += weight * hoop.derivative[0];
+      for (int k = 0; k < n; ++k) shape[k] = line_.shape(q, k);
       for (int i = 0; i < n; ++i) {
-        const double shape = line_.shape(q, i);
         system.pressure_slope[first + i] +=
-            weight * (hoop.derivative[0] * shape + hoop.derivative[1] * slope[i]);
+            weight * (hoop.derivative[0] * shape[i] + hoop.derivative[1] * slope[i]);
         if (first + i == 0) continue;
         const std::size_t row = first + i - 1;
-        system.residual[row] += weight * (radial.value * slope[i] + hoop.value * shape);
-        const double by_area = weight * (radial.derivative[0] * slope[i] + hoop.derivative[0] * shape);
-        const double by_slope = weight * (radial.derivative[1] * slope[i] + hoop.derivative[1] * shape);
+        system.residual[row] += weight * (radial.value * slope[i] + hoop.value * shape[i]);
+        const double by_area = weight * (radial.derivative[0] * slope[i] + hoop.derivative[0] * shape[i]);
+        const double by_slope = weight * (radial.derivative[1] * slope[i] + hoop.derivative[1] * shape[i]);
         system.by_inner[row] += by_area;
-        for (int j = 0; j < n; ++j)
-          if (first + j > 0)
-            system.tangent.add(row, first + j - 1, by_area * line_.shape(q, j) + by_slope * slope[j]);
+        double* in_row = &of_element[static_cast<std::size_t>(i) * n];
+        for (int j = 0; j < n; ++j) in_row[j] += by_area * shape[j] + by_slope * slope[j];
       }
     }
+    for (int i = first == 0 ? 1 : 0; i < n; ++i)
+      for (int j = first == 0 ? 1 : 0; j < n; ++j)
+        system.tangent.add(first + i - 1, first + j - 1, of_element[static_cast<std::size_t>(i) * n + j]);
   }
   system.residual.back() += tether.value;
   system.by_inner.back() += tether.derivative[0];
@@ -350,8 +354,9 @@ CompressibleRing::Residual<P> CompressibleRing::residual(const Ring<P>& ring, co
 }
 
 template <class P, class S>
-WallState<S> CompressibleRing::state(const Ring<P>& ring, const Solution& solution, const S& inner,
-                                     const std::vector<S>& nodal, double xi) const {
+CompressibleRing::Place<P, S> CompressibleRing::place_of(const Ring<P>& ring, const Solution& solution,
+                                                         const S& inner, const std::vector<S>& nodal,
+                                                         double xi) const {
   const std::size_t e = interval_at(solution.mesh, xi);
   const Interval& cell = solution.mesh[e];
   const MovingInterval<P> ends = moved_with_layers(ring, boundaries_, cell);
@@ -385,9 +390,15 @@ WallState<S> CompressibleRing::state(const Ring<P>& ring, const Solution& soluti
   }
   area += inner;
   area_slope = area_slope / (half * ring.thickness);
-  const P radius = ring.radius(xi);
+  return {cell.layer, ring.radius(xi), area, area_slope};
+}
+
+template <class P, class S>
+WallState<S> CompressibleRing::state(const Ring<P>& ring, const Solution& solution, const S& inner,
+                                     const std::vector<S>& nodal, double xi) const {
+  const auto [layer, radius, area, area_slope] = place_of(ring, solution, inner, nodal, xi);
   WallState<S> result = motion(area, area_slope, radius);
-  result.radial_stress = fluxes(ring.layers[cell.layer].law, area, area_slope, radius).radial_stress;
+  result.radial_stress = fluxes(ring.layers[layer].law, area, area_slope, radius).radial_stress;
   return result;
 }
 

@@ -64,7 +64,17 @@ class CompressibleRing final : public RingModel {
   };
   template <class P>
   Residual<P> residual(const Ring<P>& ring, const Solution& solution, const P& inner) const;
-  /// State where v = inner + the field of the nodal values, P as in Ring, S with changes of the motion.
+  template <class P, class S>
+  struct Place {
+    std::size_t layer;
+    P radius;
+    S area, area_slope;  ///< v and dv/dR
+  };
+  /// Where v = inner + the field of the nodal values, P as in Ring, S with changes of the motion.
+  template <class P, class S>
+  Place<P, S> place_of(const Ring<P>& ring, const Solution& solution, const S& inner,
+                       const std::vector<S>& nodal, double xi) const;
+  /// The state there.
   template <class P, class S>
   WallState<S> state(const Ring<P>& ring, const Solution& solution, const S& inner,
                      const std::vector<S>& nodal, double xi) const;

@@ -93,8 +93,8 @@ std::size_t layer_at(const std::vector<double>& boundaries, double xi) {
 
 double fiber_excess(const wall::CollagenFamily<double>& family, const Ring<double>& ring, double xi,
                     double displacement, double slope) {
-  const Kinematics<double> k(frame::Radial::gradient(displacement, slope, ring.radius(xi)));
-  return family.excess(k, frame::Radial::axes());
+  return family.excess(frame::Radial::kinematics(displacement, slope, ring.radius(xi)),
+                       frame::Radial::axes());
 }
 
 std::vector<Front> find_fronts(const Ring<double>& ring, const std::vector<double>& boundaries,
@@ -131,7 +131,7 @@ std::vector<Front> find_fronts(const Ring<double>& ring, const std::vector<doubl
         for (int k = 0; k < samples; ++k) {
           if ((value[k + 1] > level) == (value[k] > level)) continue;
           found.push_back(
-              find_root([&](double x) { return excess(x) - level; }, xi[k], xi[k + 1], 1e-6 * kink));
+              find_root([&](double x) { return excess(x) - level; }, xi[k], xi[k + 1], 1e-2 * kink));
         }
       }
       std::sort(found.begin(), found.end());

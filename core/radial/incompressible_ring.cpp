@@ -49,9 +49,8 @@ MovingInterval<S> IncompressibleRing::moved(const Ring<P>& ring, const S& lumen_
         if (!(family.exponent == 1 && family.recruitment.sharp)) continue;
         const auto excess = [&](const S& strain, const auto& place) {
           const WallState<S> m = motion(ring, strain, place);
-          return family.excess(
-              Kinematics<S>(Radial::gradient(m.displacement, m.radial_slope, S(ring.radius(place)))),
-              Radial::axes());
+          return family.excess(Radial::kinematics(m.displacement, m.radial_slope, S(ring.radius(place))),
+                               Radial::axes());
         };
         const S here = excess(lumen_strain, xi);
         // find_fronts knows its fronts to 1e-13 of xi.

@@ -37,9 +37,8 @@ template <class P>
 Dual<double, 1> excess_along(const wall::CollagenFamily<P>& family, const Ring<P>& ring, double xi,
                              const WallState<double>& state, const WallState<double>& change) {
   using D = Dual<double, 1>;
-  const Kinematics<D> k(frame::Radial::gradient(D(state.displacement, {change.displacement}),
-                                                D(state.radial_slope, {change.radial_slope}),
-                                                D(ring.radius(xi))));
+  const auto k = frame::Radial::kinematics(D(state.displacement, {change.displacement}),
+                                           D(state.radial_slope, {change.radial_slope}), D(ring.radius(xi)));
   return family.excess(k, frame::Radial::axes());
 }
 
@@ -98,6 +97,7 @@ std::vector<WallCurve::Candidate> WallCurve::candidates(const std::vector<double
 void WallCurve::find_thresholds() {
   const Ring<double>& ring = model_->ring();
   const auto boundaries = layer_boundaries(ring);
+  double compression = 1;
   for (const Candidate& candidate : candidates(boundaries)) {
     // A place just inside its layer reads the slope of that layer.
     const double xi =
@@ -110,7 +110,7 @@ void WallCurve::find_thresholds() {
                earlier.activation_squared == family.activation_squared;
       });
       if (mirrored) continue;
-      const auto stretch = threshold_stretch(family, xi);
+      const auto stretch = threshold_stretch(family, xi, compression);
       if (!stretch) continue;
       breaks_.push_back(*stretch);
       if (candidate.place >= 0)
@@ -121,8 +121,8 @@ void WallCurve::find_thresholds() {
   std::sort(breaks_.begin(), breaks_.end());
 }
 
-std::optional<double> WallCurve::threshold_stretch(const wall::CollagenFamily<double>& family,
-                                                   double xi) const {
+std::optional<double> WallCurve::threshold_stretch(const wall::CollagenFamily<double>& family, double xi,
+                                                   double& compression) const {
   if (family.activation_squared == 1.0) return 1.0;  // the unloaded state
   // Where incompressible tissue would be recruited: hoop stretch^2 cos^2 + sin^2 = a^2.
   const Ring<double>& ring = model_->ring();
@@ -135,7 +135,7 @@ std::optional<double> WallCurve::threshold_stretch(const wall::CollagenFamily<do
   const double guess = std::sqrt(squared);
   if (!(guess < greatest_stretch)) return std::nullopt;
   try {
-    double stretch = guess;
+    double stretch = guess * compression;
     constexpr int most_iterations = 6;
     for (int iteration = 0; iteration < most_iterations; ++iteration) {
       const auto response = respond(stretch, std::array{xi}, false);
@@ -144,7 +144,10 @@ std::optional<double> WallCurve::threshold_stretch(const wall::CollagenFamily<do
       stretch += update;
       // Newton's method: the next update would be about the square of this one, below what the model
       // resolves.
-      if (update * update < 1e-4 * model_->accuracy()) return stretch;
+      if (update * update < 1e-4 * model_->accuracy()) {
+        compression = stretch / guess;
+        return stretch;
+      }
     }
     // Tissue whose stress jumps lingers at the threshold, which Newton's method does not foresee.
     const auto excess = [&](double s) {

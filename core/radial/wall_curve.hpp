@@ -105,7 +105,10 @@ class WallCurve {
   void find_thresholds();
   std::vector<Candidate> candidates(const std::vector<double>& boundaries) const;
   /// Lumen stretch at which a family reaches its threshold at xi; none when it does not in the range.
-  std::optional<double> threshold_stretch(const wall::CollagenFamily<double>& family, double xi) const;
+  /// `compression`: what that of the last place came to over the one of incompressible tissue, nearly the
+  /// same here.
+  std::optional<double> threshold_stretch(const wall::CollagenFamily<double>& family, double xi,
+                                          double& compression) const;
   std::vector<double> threshold_derivatives(std::size_t layer, std::size_t family, double xi,
                                             double stretch) const;
   RingResponse respond(double stretch, std::span<const double> places, bool derivatives) const;

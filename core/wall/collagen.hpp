@@ -27,6 +27,8 @@ struct CollagenFamily {
   P activation_squared;  ///< a^2
   int exponent = 2;
   Recruitment<P> recruitment{};
+  /// Of the angle that the family is made with, once and not at each stress.
+  P cosine = cosine_of(angle), sine = sine_of(angle);
 
   /// Energy of fully recruited fibres. Its first three derivatives are continuous at the threshold.
   template <class S>
@@ -39,11 +41,8 @@ struct CollagenFamily {
 
   /// a0 = cos(beta) e_circumferential + sin(beta) e_axial
   Vector<P> direction(const MaterialAxes& axes) const {
-    using std::cos;
-    using std::sin;
-    const P c = cos(angle), s = sin(angle);
     Vector<P> a0;
-    for (int i = 0; i < 3; ++i) a0[i] = c * axes.circumferential[i] + s * axes.axial[i];
+    for (int i = 0; i < 3; ++i) a0[i] = cosine * axes.circumferential[i] + sine * axes.axial[i];
     return a0;
   }
 
@@ -80,6 +79,17 @@ struct CollagenFamily {
     const auto [a, x] = deformed(k, axes);
     const S slope = energy(seed(x)).derivative[0];
     return (2.0 * recruitment.share(x) * slope * k.isochoric_factor) * outer(a, a);
+  }
+
+ private:
+  // std::cos of a double, cos by its argument's namespace of a dual.
+  static P cosine_of(const P& angle) {
+    using std::cos;
+    return cos(angle);
+  }
+  static P sine_of(const P& angle) {
+    using std::sin;
+    return sin(angle);
   }
 };
 

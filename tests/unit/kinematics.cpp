@@ -115,6 +115,35 @@ TEST(Kinematics, TheInvariantDoesNotFeelAChangeOfSize) {
   EXPECT_EQ(Kinematics<double>(Tensor<double>{}).isochoric_first_invariant_change(), 0.0);
 }
 
+// The short way to the kinematics of a ring against the long one; with duals, whose products it leaves out,
+// too.
+TEST(Kinematics, OfADiagonalGradientAreThoseOfAnyOther) {
+  using D = Dual<double, 3>;
+  RandomDeformation random;
+  SCOPED_TRACE(random.origin());
+  for (int sample = 0; sample < 20; ++sample) {
+    D h[3];
+    for (int i = 0; i < 3; ++i) h[i] = D::variable(random.uniform(-0.4, 0.8), i);
+    const auto brief = Kinematics<D>::diagonal(h[0], h[1], h[2]);
+    const Kinematics<D> full(Tensor<D>::diagonal(h[0], h[1], h[2]));
+    const auto expect_same = [](const D& a, const D& b) {
+      EXPECT_NEAR(a.value, b.value, 1e-14);
+      for (int i = 0; i < 3; ++i) EXPECT_NEAR(a.derivative[i], b.derivative[i], 1e-13);
+    };
+    for (int k = 0; k < 9; ++k) {
+      expect_same(brief.displacement_gradient.entries[k], full.displacement_gradient.entries[k]);
+      expect_same(brief.deformation_gradient.entries[k], full.deformation_gradient.entries[k]);
+      expect_same(brief.deformation_cofactor.entries[k], full.deformation_cofactor.entries[k]);
+      expect_same(brief.left_cauchy_green_change.entries[k], full.left_cauchy_green_change.entries[k]);
+    }
+    expect_same(brief.volume_change, full.volume_change);
+    expect_same(brief.jacobian, full.jacobian);
+    expect_same(brief.log_jacobian, full.log_jacobian);
+    expect_same(brief.isochoric_factor_change, full.isochoric_factor_change);
+    expect_same(brief.isochoric_factor, full.isochoric_factor);
+  }
+}
+
 TEST(Kinematics, PiolaAndKirchhoffStressAreOneThroughF) {
   RandomDeformation random;
   SCOPED_TRACE(random.origin());

@@ -70,8 +70,8 @@ TEST(Collocation, KeepsItsToleranceWhateverTheStiffness) {
         EXPECT_DOUBLE_EQ(integrator.time(), 0.02 * k);
         worst = std::max(worst, std::abs(*integrator.state() - std::cos(0.02 * k)));
       }
-      // A step leaves less than the embedded error where the rate forgets nothing: a few of them add up. Below
-      // is what lambda and cos t - y lose by cancellation.
+      // A step leaves less than the embedded error where the rate forgets nothing: a few of them add up.
+      // Below is what lambda and cos t - y lose by cancellation.
       EXPECT_LT(worst, 3 * tolerance + 1e-15 * lambda) << lambda << ", " << tolerance;
       EXPECT_LT(integrator.statistics().steps, 4000) << lambda << ", " << tolerance;
     }

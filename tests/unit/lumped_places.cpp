@@ -17,8 +17,8 @@ class Places : public testing::TestWithParam<const char*> {};
 
 }  // namespace
 
-// To the accuracy of the wall's response, 2e-2 of the scene's, over the range that an artery works in: fibres are
-// recruited from one surface to the other within it. H is as steep as its sharpness.
+// To the accuracy of the wall's response, 2e-2 of the scene's, over the range that an artery works in: fibres
+// are recruited from one surface to the other within it. H is as steep as its sharpness.
 TEST_P(Places, TablesShowWhatTheLawSays) {
   for (const double tolerance : {1e-3, 1e-6}) {
     const Scene scene =

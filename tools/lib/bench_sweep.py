@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Times sweeps of the paper's artery: bench_sweep.py PROGRAM (see tools/bench-sweep)."""
+"""Times sweeps of the paper's artery: bench_sweep.py PROGRAM [WHOLE_RUNS] (see tools/bench-sweep)."""
 
 import csv
 import os
 import pathlib
+import statistics
 import subprocess
 import sys
 import tempfile
@@ -11,9 +12,9 @@ import time
 
 SCENE = "scenes/cylinder.toml"
 RANGES = {"outlet.resistance": "5e5:2e6", "tether.stiffness": "3e6:3e7", "wall.activation_stretch": "1.2:1.7"}
-OBSERVABLES = ["pressure", "outflow", "outlet_pressure", "transmural_pressure"] + [
+OBSERVABLES = ["pressure", "inflow", "outflow", "outlet_pressure", "transmural_pressure"] + [
     f"{name}.P{point}"
-    for name in ("radial_displacement", "fiber_angle", "fiber_stretch", "von_mises")
+    for name in ("radial_displacement", "fiber_angle", "fiber_stretch", "recruitment", "von_mises")
     for point in (1, 2, 3, 4)
 ]
 EXTREMES = [f"{name}.{end}" for name in OBSERVABLES for end in ("max", "min")]
@@ -67,6 +68,26 @@ def largest_error(program, folder):
     return worst
 
 
+def whole_run(program):
+    """Processor seconds of a whole run through a library."""
+    return float(subprocess.run([program, SCENE, "200"], check=True, capture_output=True, text=True).stdout)
+
+
+def against(program, whole_runs, folder):
+    """Whole runs of another library beside points of sweeps, by turns; medians of the processor's time of one."""
+    at_bar = ["--tier", "lumped", "--set", "accuracy.tolerance=1e-3", *asked(EXTREMES)]
+    grid = dict(zip(RANGES, (15, 15, 13)))
+    rounds = []
+    for _ in range(3):
+        of_grid = sweep(program, folder, *vary(grid), *at_bar)[1] / (15 * 15 * 13)
+        of_sample = sweep(program, folder, *vary(), "--sample", "sobol:2000", *at_bar)[1] / 2000
+        rounds.append((whole_run(whole_runs), of_grid, of_sample))
+    whole, of_grid, of_sample = (statistics.median(times) for times in zip(*rounds))
+    print(f"a whole run of the other library: {1e3 * whole:.2f} ms of a processor; "
+          f"a point of the grid {1e3 * of_grid:.3f} ms, {whole / of_grid:.1f} times less; "
+          f"of the Sobol' sample {1e3 * of_sample:.3f} ms, {whole / of_sample:.1f} times less")
+
+
 def main():
     program = sys.argv[1]
     at_bar = ["--tier", "lumped", "--set", "accuracy.tolerance=1e-3"]
@@ -82,6 +103,8 @@ def main():
             wall, processor, memory = sweep(program, folder, *arguments)
             print(f"{name}: {points} points in {wall:.2f} s ({processor:.2f} s of processors), "
                   f"{points / wall:.0f} a second, {memory:.0f} MiB", flush=True)
+        if len(sys.argv) > 2:
+            against(program, sys.argv[2], folder)
         error, where = largest_error(program, folder)
         print(f"largest error of an extreme at 0.1 %: {error:.2e} of its range ({where})")
 
