@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Surrogates of Tunica beside those of OpenTURNS 1.20, by tools/openturns-surrogates: the share of the variance
-// that they predict at 1,000 fresh points, and processor seconds of one fit; means over 20 samples of random
-// points.
+// Surrogates of Tunica beside those of OpenTURNS 1.20, by tools/openturns-surrogates: the share of the
+// variance that they predict at 1,000 fresh points, and processor seconds of one fit; means over 20 samples
+// of random points.
 #include <fmt/format.h>
 
 #include <algorithm>

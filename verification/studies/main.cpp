@@ -35,6 +35,7 @@ constexpr Entry entries[] = {
     {"full3d-elements", "full3d_elements", "3D: errors of elements in space; half an hour", full3d_elements},
     {"reproduction", "reproduction", "0D: the paper's claims beside ours; a minute", reproduction},
     {"ripple-runs", "ripple_runs", "2D: runs with the printed tether; minutes", ripple_runs},
+    {"sweep", "", "0D and 2D: what governs the paper's artery; minutes", sweep_study},
     {"tether-stability", "", "growth rates of ripples; half a minute", tether_stability},
 #ifdef TUNICA_WITH_FULL3D
     {"torus-ripples", "torus_ripples", "3D: the torus with the printed tether; an hour", torus_ripples},

@@ -44,6 +44,9 @@ class Study {
   /// In this process, not kept, whatever its end.
   run::Outcome computed(const StudyCase& of, const RunControl& control = {}) const;
 
+  /// The door to a case's scene.
+  run::Door door(const StudyCase& of, run::DoorOptions options) const;
+
   std::filesystem::path source(const std::string& file) const { return options_.source / file; }
   /// A file to write; one that is changed in part, such as a page, is there already.
   std::filesystem::path out(const std::string& file) const { return options_.out / file; }
@@ -51,8 +54,6 @@ class Study {
   std::filesystem::path kept(const std::string& file) const { return options_.kept / file; }
 
  private:
-  run::Door door(const StudyCase& of, run::DoorOptions options) const;
-
   StudyOptions options_;
   const TierList& tiers_;
   CaseFile cases_;
@@ -74,6 +75,7 @@ void full3d_elements(const Study& study);
 void full3d_geometry(const Study& study);
 void reproduction(const Study& study);
 void ripple_runs(const Study& study);
+void sweep_study(const Study& study);
 void tether_stability(const Study& study);
 void torus_ripples(const Study& study);
 

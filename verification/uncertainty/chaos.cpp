@@ -71,7 +71,7 @@ Pick matching_pursuit(const Eigen::MatrixXd& dictionary, const Eigen::VectorXd& 
   std::vector<bool> is_out(static_cast<std::size_t>(dictionary.cols()), false);
   Pick best;
   Index best_size = 0;
-  const Index patience = std::max<Index>(8, points / 10);
+  const Index patience = std::clamp<Index>(points / 10, 8, 25);
   const double smallest = 1e-13 * values.norm();
   for (Index size = 0; size < most && size - best_size < patience;) {
     Index next = 0;
