@@ -40,9 +40,13 @@ void tell_of_surrogates(const sweep::IndexSummary& indices) {
 }
 
 /// indices.csv of a whole sweep that is for them; the widest interval.
-double make_indices(const sweep::SweepSummary& summary, const fs::path& folder, bool quiet) {
+double make_indices(sweep::SweepSummary& summary, const fs::path& folder, bool quiet) {
   if (summary.interrupted || summary.done == 0) return 0;
-  const sweep::IndexSummary indices = sweep::write_indices(folder);
+  const sweep::IndexSummary indices = sweep::write_indices(folder, stop_asked);
+  if (indices.interrupted) {
+    summary.interrupted = true;
+    return 0;
+  }
   if (quiet) return indices.widest;
   if (indices.points > 0) {
     tell_of_surrogates(indices);
@@ -88,7 +92,7 @@ int sweep_command(const SweepArguments& arguments, const Program& program) {
   if (!arguments.merge.empty()) {
     if (!arguments.scene.empty() || arguments.out.empty())
       throw InvalidInput("sweep --merge: name the folders of the shards and --out, and nothing else");
-    const auto summary =
+    auto summary =
         sweep::merge({arguments.merge.begin(), arguments.merge.end()}, arguments.out, arguments.replace);
     if (sweep::has_indices(arguments.out)) make_indices(summary, arguments.out, arguments.quiet);
     return conclude(summary, arguments.out, arguments.quiet);

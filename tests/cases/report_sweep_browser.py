@@ -80,8 +80,9 @@ class Sweep(unittest.TestCase):
         names = self.value("[...document.querySelectorAll('#indices .name title')].map(title => title.textContent)")
         self.assertEqual(names[::2], ["outlet.resistance", "tether.stiffness", "wall.law"])
         self.assertEqual(self.value("document.querySelectorAll('#indices .whisker').length"), 6)
+        self.assertIn("kriging of 29 points; held-out Q\u00b2 0.9877.", self.text("#indices figcaption"))
         self.choose("quantity", 1)
-        self.assertIn("No indices of radial_displacement.P1.change", self.text("#indices"))
+        self.assertIn("No indices of radial_displacement.P1.change: too <few> points.", self.text("#indices"))
 
     def test_a_brush_leaves_the_points_within(self):
         x, top, bottom = self.grip(0)

@@ -2,11 +2,14 @@
 // Sobol' indices from surrogates, and sweeps at several tiers, as users ask for them.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
+#include <csignal>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <thread>
 
 #include "core/observables/result.hpp"
 #include "core/observables/table.hpp"
@@ -209,6 +212,22 @@ TEST_F(SweepSurrogates, AtTwoTiersTellWhereTheyDiffer) {
   EXPECT_GT(surrogate.at("q2"), 0.99);
   EXPECT_GT(indices("both").at("pressure.max,outlet.resistance")[1], 0.9);
   EXPECT_NE(read_text(path("both/report.html")).find("Where tiers differ"), std::string::npos);
+}
+
+// Surrogates of all quantities of 200 points take some ten seconds; nobody waits for those.
+TEST_F(SweepSurrogates, AreLeftWhenInterrupted) {
+  Texts all{TUNICA_PROGRAM, "sweep", std::string(TUNICA_SOURCE_DIR) + "/scenes/cylinder.toml", "--quiet"};
+  all.insert(all.end(), varied.begin(), varied.end());
+  all.insert(all.end(), {"--tier", "lumped", "--sample", "sobol:200", "--indices", "--surrogate", "--out",
+                         path("stopped")});
+  test_support::Program program(all, folder_.path());
+  for (int k = 0; k < 60'000 && !std::filesystem::exists(path("stopped/sweep.csv")); ++k)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  program.send(SIGINT);
+  EXPECT_EQ(program.wait(), 130);
+  EXPECT_NE(program.errors().find("200 of 200 points"), std::string::npos) << program.errors();
+  EXPECT_NE(program.errors().find("--resume goes on"), std::string::npos) << program.errors();
+  EXPECT_FALSE(std::filesystem::exists(path("stopped/indices.csv")));
 }
 
 TEST_F(SweepSurrogates, RefuseWhatMakesNoSense) {

@@ -44,18 +44,21 @@ void make_sweep(const std::filesystem::path& folder, const MadeSweep& made) {
   using Json = nlohmann::ordered_json;
   Json parameters = Json::array();
   for (const auto& [key, unit] : keys) parameters.push_back({{"key", key}, {"unit", unit}});
-  const Json campaign{
-      {"program", "tunica sweep"},
-      {"scene", made.reason},
-      {"tier", "lumped"},
-      {"design", {{"kind", "list"}, {"parameters", parameters}}},
-      {"points", count},
-      {"shard", {{"index", 1}, {"count", 1}}},
-      {"timings", false},
-      {"counts", {{"done", count - 1}, {"gave-up", 1}, {"refused", 0}}},
-      {"quantities", {"pressure.max", "radial_displacement.P1.change", "fiber_angle.P1.change"}},
-      {"gradients", Json::array()},
-      {"scene_toml", made.reason}};
+  Json campaign{{"program", "tunica sweep"},
+                {"scene", made.reason},
+                {"tier", "lumped"},
+                {"design", {{"kind", "list"}, {"parameters", parameters}}},
+                {"points", count},
+                {"shard", {{"index", 1}, {"count", 1}}},
+                {"timings", false},
+                {"counts", {{"done", count - 1}, {"gave-up", 1}, {"refused", 0}}},
+                {"quantities", {"pressure.max", "radial_displacement.P1.change", "fiber_angle.P1.change"}},
+                {"gradients", Json::array()},
+                {"scene_toml", made.reason}};
+  if (made.with_indices)
+    campaign["surrogates"] = {
+        {{"quantity", "pressure.max"}, {"kind", "kriging"}, {"q2", 0.98765}, {"points", count - 1}},
+        {{"quantity", "radial_displacement.P1.change"}, {"reason", "too <few> points"}}};
   write_whole(folder / sweep::campaign_file, campaign.dump());
   if (made.with_indices)
     write_whole(folder / "indices.csv",

@@ -225,6 +225,48 @@ std::string tier_table(const Read& found) {
                         rows);
 }
 
+/// Q2 of the 2D tier from its first points alone, as told by cross-validation and true at all points behind
+/// the first hundred, and the same with those of 0D.
+std::string fewer_table(const Read& found) {
+  constexpr std::size_t fresh = 100;
+  const auto all = axes();
+  std::vector<uncertainty::Coordinate> coordinates;
+  for (const auto& axis : all) coordinates.emplace_back(*axis.marginal);
+  Eigen::MatrixXd places(cheap_points, std::size(keys));
+  for (std::size_t i = 0; i < cheap_points; ++i)
+    for (std::size_t k = 0; k < std::size(keys); ++k)
+      places(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) =
+          coordinates[k].of(found.keys[0][k][i]);
+  std::vector<std::vector<std::string>> rows;
+  for (std::size_t q = 0; q < std::size(asked); ++q) {
+    const auto& dear = found.quantities[1][q];
+    const auto true_q2 = [&](const uncertainty::Surrogate& surrogate) {
+      std::vector<double> values, missed;
+      for (std::size_t i = fresh; i < dear.size(); ++i) {
+        if (observables::is_none(dear[i])) continue;
+        values.push_back(dear[i]);
+        missed.push_back(dear[i] - surrogate.value(places.row(static_cast<Eigen::Index>(i))));
+      }
+      const auto count = static_cast<Eigen::Index>(values.size());
+      const Eigen::Map<const Eigen::ArrayXd> f(values.data(), count), e(missed.data(), count);
+      return 1 - e.square().sum() / (f - f.mean()).square().sum();
+    };
+    rows.push_back({asked[q].about});
+    for (const std::size_t few : {std::size_t{20}, std::size_t{40}}) {
+      std::vector<std::vector<double>> levels{found.quantities[0][q],
+                                              std::vector<double>(cheap_points, observables::none)};
+      std::copy_n(dear.begin(), few, levels[1].begin());
+      const std::vector<std::vector<double>> alone{levels[1]};
+      for (const auto& of : {alone, levels}) {
+        const auto surrogate = uncertainty::fit_fidelities(coordinates, places, of);
+        rows.back().push_back(fmt::format("{:.3f} ({:.3f})", surrogate.q2, true_q2(*surrogate.surrogate)));
+      }
+    }
+  }
+  return markdown_table(
+      {"quantity", "20 in 2D alone", "20, and 2,000 in 0D", "40 in 2D alone", "40, and 2,000 in 0D"}, rows);
+}
+
 /// The quantities over the key that governs them most, by both tiers at the points of the 2D tier.
 std::string picture_of_quantities(const Read& found, const std::filesystem::path& folder) {
   const auto by = indices(folder);
@@ -322,7 +364,9 @@ void tunica::verification::sweep_study(const Study& study) {
   page.write("### Indices of the 2D tier\n\n" + index_table(study.kept("both")) +
              "### Indices of the 0D tier, by 10,240 points\n\n" + index_table(study.kept("0d")) +
              "### The quantities in 2D\n\n" + size_table(study.kept("both"), found) + "### 2D less 0D\n\n" +
-             tier_table(found));
+             tier_table(found) +
+             "### Fewer points in 2D: Q² as told, and in brackets as it is at 99 other points\n\n" +
+             fewer_table(found));
   write_whole(study.out("docs/images/sweep-study.svg"), picture_of_quantities(found, study.kept("both")));
   write_whole(study.out("docs/images/sweep-study-tiers.svg"), picture_of_differences(found));
   write_whole(study.out("notebooks_data/sweep_points.csv"), points_csv(found));

@@ -49,9 +49,9 @@ std::string index_line(const std::string& quantity, const std::string& key,
                      cell(one.high), cell(all.value), cell(all.low), cell(all.high));
 }
 
-IndexSummary write_indices(const std::filesystem::path& folder) {
+IndexSummary write_indices(const std::filesystem::path& folder, const std::function<bool()>& interrupted) {
   const auto campaign = read_campaign(folder);
-  if (makes_surrogates(campaign)) return write_surrogates(folder);
+  if (makes_surrogates(campaign)) return write_surrogates(folder, interrupted);
   if (!campaign.at("design").contains("pick_freeze"))
     throw InvalidInput(
         fmt::format("{}: no sample for Sobol' indices; make one with --indices", folder.string()));

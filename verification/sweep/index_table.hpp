@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -20,13 +21,15 @@ struct IndexSummary {
   std::uint64_t points = 0;  ///< that surrogates are made of; 0 without surrogates
   /// Quantities whose surrogate misses much, or that have none, with the reason; one line each.
   std::vector<std::string> poor = {};
+  bool interrupted = false;  ///< while surrogates were made: nothing is written
 };
 
 /// Writes indices.csv of a sweep that is for them: first and total Sobol' indices of each quantity by each
 /// key, with 95 % intervals; of a pick-freeze sample by uncertainty::sobol_indices, else by write_surrogates.
-/// Empty cells for quantities that the law or tier has not or that do not vary. Throws InvalidInput for other
-/// sweeps, OutputFailure.
-IndexSummary write_indices(const std::filesystem::path& folder);
+/// Empty cells for quantities that the law or tier has not or that do not vary. `interrupted` is asked by all
+/// threads. Throws InvalidInput for other sweeps, OutputFailure.
+IndexSummary write_indices(
+    const std::filesystem::path& folder, const std::function<bool()>& interrupted = [] { return false; });
 
 /// Whether a folder's sweep is of that kind.
 bool has_indices(const std::filesystem::path& folder);

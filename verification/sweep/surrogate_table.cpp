@@ -192,13 +192,16 @@ bool makes_surrogates(const Json& campaign) {
   return campaign.value("made_of_points", Json()) == "surrogates";
 }
 
-IndexSummary write_surrogates(const std::filesystem::path& folder) {
+IndexSummary write_surrogates(const std::filesystem::path& folder, const std::function<bool()>& interrupted) {
   Json campaign = read_campaign(folder);
   const Sample sample = read_sample(campaign, folder);
   std::vector<Finding> findings(sample.quantities.size());
-  tbb::parallel_for(std::size_t{0}, findings.size(),
-                    [&](std::size_t quantity) { findings[quantity] = find(sample, quantity); });
+  tbb::parallel_for(std::size_t{0}, findings.size(), [&](std::size_t quantity) {
+    if (!interrupted()) findings[quantity] = find(sample, quantity);
+  });
   IndexSummary summary;
+  summary.interrupted = interrupted();
+  if (summary.interrupted) return summary;
   summary.lost = sample.lost;
   summary.points = sample.done(sample.tiers.size() - 1);
   std::string text = index_head();

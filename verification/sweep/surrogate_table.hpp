@@ -24,7 +24,8 @@ bool makes_surrogates(const nlohmann::ordered_json& campaign);
 ///                   largest_at,beyond_5_percent`; the range is that of both over the points that they share,
 ///                   the last two are the number of a point of the sample and a count of points.
 /// A quantity has no surrogate where it is known at fewer than 9 in 10 of the points that are done, or where
-/// the surrogate misses more than half of the variance. Throws InvalidInput, OutputFailure.
-IndexSummary write_surrogates(const std::filesystem::path& folder);
+/// the surrogate misses more than half of the variance. `interrupted` is asked before each quantity, by all
+/// threads. Throws InvalidInput, OutputFailure.
+IndexSummary write_surrogates(const std::filesystem::path& folder, const std::function<bool()>& interrupted);
 
 }  // namespace tunica::sweep
