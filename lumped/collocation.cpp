@@ -37,7 +37,7 @@ constexpr double greatest_share = 1.0 / 32;
 
 /// Longer by at most 8, shorter by at most 5; the error of the embedded formula goes with the fourth power.
 double factor_for(double error) {
-  constexpr double safety = 0.9;
+  constexpr double safety = 0.8;
   return std::clamp(safety * std::pow(std::max(error, 1e-16), -0.25), 0.2, 8.0);
 }
 
@@ -106,7 +106,10 @@ void Collocation::step() {
       shorten(h, factor_for(error));
       continue;
     }
-    step_ = std::min(h * factor_for(error), greatest_share * system_.time_scale);
+    const double factor = factor_for(error);
+    // A step that is to grow by little stays as long as the matrices are factorised for.
+    const bool stays = factor >= 1 && factor < 1.2;
+    step_ = std::min(stays ? h : h * factor, greatest_share * system_.time_scale);
     return accept(h == remaining ? end_time_ : end_ + h);
   }
 }

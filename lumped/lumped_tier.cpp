@@ -42,15 +42,15 @@ double local_tolerance(const Scene& scene) {
 
 /// The same where the error that is controlled is that of a formula of lower order than the step's own.
 double collocation_tolerance(const Scene& scene) {
-  return std::clamp(2e-2 * scene.number("accuracy.tolerance"), 1e-10, 1e-3);
+  return std::clamp(1e-2 * scene.number("accuracy.tolerance"), 1e-10, 1e-3);
 }
 
 /// Rows that the quantities of the last beat are taken from: so many that the parabolas through their
 /// extremes are as good as the scene asks.
 std::vector<observables::Stop> stops_for_answer(const Scene& scene, double period) {
-  // Its error falls with the fourth power; that of 192 rows is 1e-4 of the range of H, the sharpest of all.
+  // Its error falls with the fourth power; that of 288 rows is 5e-4 of the range of H, the sharpest of all.
   const double tolerance = std::clamp(scene.number("accuracy.tolerance"), 1e-9, 1e-3);
-  const int rows = 4 * static_cast<int>(std::ceil(48 * std::pow(1e-3 / tolerance, 0.25)));
+  const int rows = 4 * static_cast<int>(std::ceil(72 * std::pow(1e-3 / tolerance, 0.25)));
   const double begin = static_cast<double>(scene.integer("time.beats") - 1) * period;
   std::vector<observables::Stop> stops;
   for (int k = 0; k <= rows; ++k) {

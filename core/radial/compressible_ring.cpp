@@ -55,7 +55,13 @@ CompressibleRing::CompressibleRing(Ring<double> ring, std::vector<Seeded> seeded
       boundaries_(layer_boundaries(ring_)) {}
 
 Field CompressibleRing::field(const Solution& solution) const {
-  return [this, &solution](double xi) {
+  const bool is_incompressible =
+      std::all_of(solution.nodal.begin(), solution.nodal.end(), [](double w) { return w == 0; });
+  return [this, &solution, is_incompressible](double xi) {
+    if (is_incompressible) {
+      const auto moved = motion(solution.inner, 0.0, merged_.radius(xi));
+      return std::pair{moved.displacement, moved.radial_slope};
+    }
     const auto place = place_of(merged_, solution, solution.inner, solution.nodal, xi);
     const auto moved = motion(place.area, place.area_slope, place.radius);
     return std::pair{moved.displacement, moved.radial_slope};
@@ -197,7 +203,7 @@ bool CompressibleRing::newton(const Ring<double>& ring, Solution& solution) cons
     // volume change depends on.
     double largest = 0;
     for (const double w : solution.nodal) largest = std::max(largest, std::abs(w));
-    const double negligible = 1e-3 * options_.accuracy * largest;
+    const double negligible = 1e-1 * options_.accuracy * largest;
     const auto is_small = [&] { return size * size <= negligible * previous_update; };
     if (iteration >= full_steps) {
       const auto squared = [](std::span<const double> r) {

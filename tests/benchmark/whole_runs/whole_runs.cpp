@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// whole_runs SCENE COUNT: processor time of whole 0D runs through the library, each read, prepared and executed, over
-// the ranges that tools/bench-sweep sweeps. It uses nothing but what the library has had from its first commits.
+// whole_runs SCENE COUNT: processor time of whole 0D runs through the library, each read, prepared and
+// executed, over the ranges that tools/bench-sweep sweeps. It uses nothing but what the library has had from
+// its first commits.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
