@@ -22,10 +22,6 @@ using SideResidual = kernel::SideResidual<Frame, side_width>;
 using BoundaryTerms = coupled::BoundaryTerms<2>;
 using coupled::add_rows;
 
-bool is_loaded(const Problem& problem, const SideTable& side) {
-  return coupled::is_loaded(problem, side.boundary, side.of_wall && !problem.mesh.has(Part::blood));
-}
-
 /// On fewer cells a residual takes less than a millisecond, and threads are not worth their making.
 constexpr int least_shared_cells = 500;
 
@@ -36,7 +32,9 @@ Tables needed_tables(const Problem& problem) {
   std::erase_if(tables.sides, [&](const SideTable& side) {
     const bool is_opening = side.boundary == Boundary::inlet || side.boundary == Boundary::outlet;
     const bool is_second_of_two = coupled && side.boundary == Boundary::interface && !side.of_wall;
-    return !is_opening && !is_loaded(problem, side) && (!problem.loads.traction || is_second_of_two);
+    const bool is_pressed =
+        coupled::is_loaded(problem, side.boundary, side.of_wall && !problem.mesh.has(Part::blood));
+    return !is_opening && !is_pressed && (!problem.loads.traction || is_second_of_two);
   });
   return tables;
 }
@@ -50,15 +48,20 @@ Assembler::Assembler(const Problem& problem, int threads)
       tables_(needed_tables(problem)),
       map_(problem, layout_, tables_) {}
 
+bool Assembler::is_loaded(const SideTable& side) const {
+  return coupled::is_loaded(problem_, side.boundary, side.of_wall && !has_blood());
+}
+
 void Assembler::complete(const Stage& stage, std::span<double> y) const {
   coupled::complete(problem_, layout_, problem_.mesh.points, Frame::axes, stage, y);
 }
 
-bool Assembler::residual(const Stage& stage, std::span<const double> y, std::span<double> residual) const {
-  const auto blood_count = static_cast<int>(tables_.blood.size());
-  const auto wall_count = static_cast<int>(tables_.wall.size());
-  std::vector<BloodResidual> blood(tables_.blood.size());
-  std::vector<WallResidual> wall(tables_.wall.size());
+bool Assembler::residual_of(const Parts& parts, const Stage& stage, std::span<const double> y,
+                            std::span<double> residual) const {
+  const int blood_count = parts.blood ? static_cast<int>(tables_.blood.size()) : 0;
+  const int wall_count = parts.wall ? static_cast<int>(tables_.wall.size()) : 0;
+  std::vector<BloodResidual> blood(blood_count);
+  std::vector<WallResidual> wall(wall_count);
   for_each_index(threads_, blood_count + wall_count, [&](int index) {
     if (index < blood_count) {
       const BloodTable& table = tables_.blood[index];
@@ -99,7 +102,7 @@ bool Assembler::residual(const Stage& stage, std::span<const double> y, std::spa
 void Assembler::add_sides(const Stage& stage, std::span<const double> y, std::span<double> residual) const {
   for (std::size_t s = 0; s < tables_.sides.size(); ++s) {
     const SideTable& side = tables_.sides[s];
-    if (!is_loaded(problem_, side)) continue;
+    if (!is_loaded(side)) continue;
     SideNodes nodes = side_nodes(layout_, side, stage, y);
     nodes.pressure = coupled::pressure_on(problem_, layout_, side.boundary, stage.time, y);
     SideResidual result;
@@ -187,7 +190,7 @@ void Assembler::tangent(const Stage& stage, std::span<const double> y, SparseMat
   }
   for (std::size_t s = 0; s < tables_.sides.size(); ++s) {
     const SideTable& side = tables_.sides[s];
-    if (!is_loaded(problem_, side)) continue;
+    if (!is_loaded(side)) continue;
     SideNodes nodes = side_nodes(layout_, side, stage, y);
     nodes.pressure = coupled::pressure_on(problem_, layout_, side.boundary, stage.time, y);
     SideTangent t;

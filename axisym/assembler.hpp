@@ -12,6 +12,7 @@
 
 namespace tunica::axisym {
 
+using coupled::Direction;
 using coupled::LeastJacobian;
 using coupled::Stage;
 
@@ -29,7 +30,19 @@ class Assembler final : public coupled::Equations {
   const Tables& tables() const { return tables_; }
 
   void complete(const Stage& stage, std::span<double> y) const override;
-  bool residual(const Stage& stage, std::span<const double> y, std::span<double> residual) const override;
+  bool residual(const Stage& stage, std::span<const double> y, std::span<double> residual) const override {
+    return residual_of({}, stage, y, residual);
+  }
+  /// Which cells a residual is to have; sides and scalars are in all.
+  struct Parts {
+    bool blood = true, wall = true;
+  };
+  bool residual_of(const Parts& parts, const Stage& stage, std::span<const double> y,
+                   std::span<double> residual) const;
+  /// Derivatives of the residual along directions that move neither unknowns nor the wall (see
+  /// coupled::KeyedEquations).
+  void change(const Stage& stage, std::span<const double> y, std::span<const Direction> along,
+              std::span<std::vector<double>> changes) const;
   void follow(double time, std::span<double> y) const override;
   const LeastJacobian& least_jacobian() const override { return least_; }
   /// By KLU.
@@ -49,7 +62,11 @@ class Assembler final : public coupled::Equations {
   coupled::Throughflow flow(const Stage& stage, std::span<const double> y, Boundary boundary) const override;
 
  private:
+  bool is_loaded(const SideTable& side) const;
   void add_sides(const Stage& stage, std::span<const double> y, std::span<double> residual) const;
+  template <int Directions>
+  void add_change(const Stage& stage, std::span<const double> y, const Direction* along,
+                  std::vector<double>* changes) const;
   void add_loads(double time, std::span<double> residual) const;
 
   const Problem& problem_;

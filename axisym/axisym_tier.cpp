@@ -3,6 +3,7 @@
 
 #include "axisym/coarser_meshes.hpp"
 #include "axisym/fields.hpp"
+#include "axisym/key_derivative.hpp"
 #include "axisym/observer.hpp"
 #include "axisym/remarks.hpp"
 #include "axisym/tangent_stability.hpp"
@@ -40,6 +41,9 @@ class AxisymVessel final : public coupled::Vessel {
   const coupled::CoarserMeshes& coarser() const override { return coarser_; }
   std::unique_ptr<coupled::StaticMesh> steady_mesh() const override {
     return assembler_.layout().mesh_follows() ? coarser_.make_finest() : nullptr;
+  }
+  std::unique_ptr<coupled::KeyedEquations> keyed(const coupled::Equations& equations) const override {
+    return keyed_equations(scene_, setup_->resolution, dynamic_cast<const Assembler&>(equations));
   }
   const coupled::Observing& observer() const override { return observer_; }
   const coupled::Picturing& fields() const override { return fields_; }
@@ -110,8 +114,9 @@ std::string AxisymTier::refusal(const Scene& scene) const {
     return "wall.incompressible = true is for the 0D tier; write false and a large wall.bulk_modulus (9e6 "
            "dyn/cm2 "
            "changes the volume by 1 to 2 %)";
-  if (!scene.texts("sensitivity.parameters").empty())
-    return "sensitivity.parameters are for the 0D tier; leave them out, or use --tier lumped";
+  if (!scene.texts("sensitivity.parameters").empty() && scene.text("time.start") == "periodic")
+    return "sensitivity.parameters with time.start = \"periodic\" are for the 0D tier; write time.start = "
+           "\"rest\" or \"static\", or use --tier lumped";
   if (scene.has("time.scheme") && scene.text("time.scheme") == "generalized-alpha" &&
       scene.number("time.step") == 0)
     return "time.scheme = \"generalized-alpha\" is of first order in pressure when steps vary; give "

@@ -94,6 +94,21 @@ std::unique_ptr<Setup> setup_of(const Scene& scene) {
 }
 
 std::unique_ptr<Setup> setup_of(const Scene& scene, const Resolution& resolution) {
+  auto setup = conditions_of(scene, resolution);
+  const Problem& problem = setup->problem;
+  std::unique_ptr<const radial::RingModel> ring;
+  if (problem.mesh.has(Part::wall)) {
+    const Extent ends = extent(problem.mesh);
+    const Section middle = section_at(problem.mesh, 0.5 * (ends.inlet + ends.outlet));
+    setup->ring = ring_at(scene, middle);
+    ring = ring_at(scene, middle);
+  }
+  coupled::estimate_sizes(scene, std::move(ring), *setup);
+  coupled::set_steady_state(problem, problem.mesh.has(Part::blood), *setup);
+  return setup;
+}
+
+std::unique_ptr<Setup> conditions_of(const Scene& scene, const Resolution& resolution) {
   auto setup = std::make_unique<Setup>();
   coupled::set_source(scene, *setup);
   setup->resolution = resolution;
@@ -110,15 +125,8 @@ std::unique_ptr<Setup> setup_of(const Scene& scene, const Resolution& resolution
       scene.text("mesh.motion") == "sectional" && problem.mesh.has(Part::blood);
 
   const Extent ends = extent(problem.mesh);
-  const Section middle = section_at(problem.mesh, 0.5 * (ends.inlet + ends.outlet));
-  setup->lumen_radius = middle.inner;
-  std::unique_ptr<const radial::RingModel> ring;
-  if (problem.mesh.has(Part::wall)) {
-    setup->ring = ring_at(scene, middle);
-    ring = ring_at(scene, middle);
-  } else {
-    problem.on(Boundary::interface).displacement = {true, true};
-  }
+  setup->lumen_radius = section_at(problem.mesh, 0.5 * (ends.inlet + ends.outlet)).inner;
+  if (!problem.mesh.has(Part::wall)) problem.on(Boundary::interface).displacement = {true, true};
   if (problem.mesh.has(Part::blood)) {
     set_inlet(scene, *setup);
   } else {
@@ -127,8 +135,6 @@ std::unique_ptr<Setup> setup_of(const Scene& scene, const Resolution& resolution
     problem.lumen_pressure = [here](double time) { return here->inlet_value(time); };
   }
   if (scene.text("geometry.kind") != "mesh") setup->tube = tube_of(scene, problem, ends);
-  coupled::estimate_sizes(scene, std::move(ring), *setup);
-  coupled::set_steady_state(problem, problem.mesh.has(Part::blood), *setup);
   return setup;
 }
 

@@ -19,5 +19,7 @@ struct Setup : coupled::Loading {
 std::unique_ptr<Setup> setup_of(const Scene& scene);
 /// The same with other numbers of cells than the scene asks for.
 std::unique_ptr<Setup> setup_of(const Scene& scene, const Resolution& resolution);
+/// The same without what is expected of the solution: ring, sizes and steady state.
+std::unique_ptr<Setup> conditions_of(const Scene& scene, const Resolution& resolution);
 
 }  // namespace tunica::axisym

@@ -90,7 +90,7 @@ class LumpedRun final : public TierRun {
       : scene_(scene),
         began_(Clock::now()),
         network_(scene, {}),
-        observer_(network_, {}),
+        observer_(network_),
         stops_(stops_for_answer(scene, network_.inlet().period)),
         tolerance_(local_tolerance(scene)),
         looked_(looked_at(question)),
@@ -105,7 +105,7 @@ class LumpedRun final : public TierRun {
         began_(Clock::now()),
         parameters_(scene.texts("sensitivity.parameters")),
         network_(scene, parameters_),
-        observer_(network_, parameters_),
+        observer_(network_),
         wall_fields_(std::in_place, network_.curve().model(), scene.number("geometry.length")),
         stops_(observables::stops(scene, network_.inlet().period)),
         tolerance_(local_tolerance(scene)),
@@ -152,7 +152,7 @@ class LumpedRun final : public TierRun {
     result_.observables = observables::standard_table();
     result_.profiles = observables::profile_table();
     if (scene_.number("output.field_interval") > 0) result_.fields.push_back(wall_fields_->empty_series());
-    result_.sensitivities = observer_.sensitivity_table();
+    result_.sensitivities = observables::sensitivity_table(parameters_);
     if (network_.compartments() > 1) result_.compartments = observer_.compartment_table();
     std::size_t columns = 0;
     for (const auto* table : {&result_.observables, &result_.sensitivities, &result_.compartments})

@@ -20,26 +20,9 @@ constexpr double degrees = 180 / std::numbers::pi;
 /// Points of a profile through the wall, both surfaces included.
 constexpr int profile_points = 61;
 
-struct Quantity {
-  const char* name;
-  const char* unit;
-};
-/// Quantities that have sensitivities, in the order of Observer::append_sensitivities.
-constexpr Quantity section_quantities[] = {{"pressure", "dyn/cm2"},
-                                           {"outlet_pressure", "dyn/cm2"},
-                                           {"transmural_pressure", "dyn/cm2"},
-                                           {"inflow", "cm3/s"},
-                                           {"outflow", "cm3/s"}};
-constexpr Quantity point_quantities[] = {{"radial_displacement", "cm"},
-                                         {"fiber_angle", "deg"},
-                                         {"fiber_stretch", "1"},
-                                         {"recruitment", "1"},
-                                         {"von_mises", "dyn/cm2"}};
-
 }  // namespace
 
-Observer::Observer(const Network& network, std::vector<std::string> parameters)
-    : network_(network), parameters_(std::move(parameters)) {
+Observer::Observer(const Network& network) : network_(network) {
   const auto boundaries = radial::layer_boundaries(network.curve().model().ring());
   for (const double xi : network.curve().places()) place_layers_.push_back(radial::layer_at(boundaries, xi));
 }
@@ -73,30 +56,11 @@ observables::Sample Observer::sample(double time, const double* y, const Looked&
   return sample;
 }
 
-observables::Table Observer::sensitivity_table() const {
-  observables::Table table;
-  if (parameters_.empty()) return table;
-  table.add("time", "s");
-  for (const auto& key : parameters_) {
-    const auto add = [&](std::string_view quantity, std::string_view unit) {
-      auto head = observables::sensitivity_column(quantity, unit, key, scene::find_parameter(key)->unit);
-      table.add(std::move(head.name), std::move(head.unit));
-    };
-    for (const Quantity& quantity : section_quantities) add(quantity.name, quantity.unit);
-    for (const Quantity& quantity : point_quantities)
-      for (int p = 1; p <= observables::wall_points; ++p)
-        add(fmt::format("{}.P{}", quantity.name, p), quantity.unit);
-  }
-  return table;
-}
-
 void Observer::append_sensitivities(double time, const double* y,
                                     const std::vector<const double*>& sensitivities,
                                     observables::Table& table) const {
   const auto& curve = network_.curve();
-  std::size_t column = 0;
-  const auto put = [&](double value) { table[column++].values.push_back(value); };
-  put(time);
+  std::vector<observables::Sample> derivatives;
   for (std::size_t k = 0; k < sensitivities.size(); ++k) {
     const int parameter = static_cast<int>(k);
     const Outside<D> outside = network_.outside_derivative(time, y, sensitivities[k], parameter);
@@ -111,30 +75,29 @@ void Observer::append_sensitivities(double time, const double* y,
       return D(curve.radial_slope(s, p),
                {curve.radial_slope_rate(s, p) * ds + curve.radial_slope_derivative(s, parameter, p)});
     };
-    put(outside.pressure.derivative[0]);
-    put(outside.outlet_pressure.derivative[0]);
-    put((outside.pressure - ring.external_pressure(displacement(observables::wall_points - 1)))
-            .derivative[0]);
-    put(outside.inflow.derivative[0]);
-    put(outside.outflow.derivative[0]);
-    std::vector<double> angles, stretches, recruited, stresses;
+    observables::Sample& derivative = derivatives.emplace_back();
+    derivative.pressure = outside.pressure.derivative[0];
+    derivative.outlet_pressure = outside.outlet_pressure.derivative[0];
+    derivative.transmural_pressure =
+        (outside.pressure - ring.external_pressure(displacement(observables::wall_points - 1))).derivative[0];
+    derivative.inflow = outside.inflow.derivative[0];
+    derivative.outflow = outside.outflow.derivative[0];
     for (int p = 0; p < observables::wall_points; ++p) {
-      put(displacement(p).derivative[0]);
+      observables::WallPoint& point = derivative.wall[p];
+      point.radial_displacement = displacement(p).derivative[0];
       const auto& law = ring.layers[place_layers_[p]].law;
       const auto gradient = Radial::gradient(displacement(p), slope(p), ring.radius(curve.places()[p]));
-      stresses.push_back(von_mises_stress(cauchy_stress(wall::piola(law, gradient, Radial::axes()), gradient))
-                             .derivative[0]);
+      point.von_mises =
+          von_mises_stress(cauchy_stress(wall::piola(law, gradient, Radial::axes()), gradient)).derivative[0];
       const auto& families = wall::families(law);
-      const bool has_fibers = !families.empty();
-      const auto fiber =
-          has_fibers ? wall::fiber_state(families.front(), gradient, Radial::axes()) : wall::FiberState<D>{};
-      angles.push_back(has_fibers ? fiber.angle.derivative[0] * degrees : observables::none);
-      stretches.push_back(has_fibers ? fiber.stretch.derivative[0] : observables::none);
-      recruited.push_back(has_fibers ? fiber.recruitment.derivative[0] : observables::none);
+      if (families.empty()) continue;
+      const auto fiber = wall::fiber_state(families.front(), gradient, Radial::axes());
+      point.fiber_angle = fiber.angle.derivative[0] * degrees;
+      point.fiber_stretch = fiber.stretch.derivative[0];
+      point.recruitment = fiber.recruitment.derivative[0];
     }
-    for (const auto* values : {&angles, &stretches, &recruited, &stresses})
-      for (const double value : *values) put(value);
   }
+  observables::append_sensitivities(table, time, derivatives);
 }
 
 void Observer::append_profile(double time, const double* y, observables::Table& table) const {

@@ -19,7 +19,7 @@ struct Looked {
 /// Turns states of the network into the tables of a result.
 class Observer {
  public:
-  Observer(const Network& network, std::vector<std::string> parameters);
+  explicit Observer(const Network& network);
 
   /// One row of observables.csv.
   observables::Sample sample(double time, const double* y, const Looked& looked = {}) const;
@@ -29,8 +29,6 @@ class Observer {
   /// Rows of profiles.csv: the wall at mid-length from the inner to the outer surface.
   void append_profile(double time, const double* y, observables::Table& table) const;
 
-  observables::Table sensitivity_table() const;
-
   /// One row of compartments.csv: pressure, lumen radius and outflow of each compartment, so that the
   /// pressure drop from end to end and travelling waves can be seen.
   void append_compartments(double time, const double* y, observables::Table& table) const;
@@ -38,7 +36,6 @@ class Observer {
 
  private:
   const Network& network_;
-  std::vector<std::string> parameters_;
   std::vector<std::size_t> place_layers_;  ///< layer of P1..P4
 };
 

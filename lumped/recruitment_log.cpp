@@ -9,14 +9,7 @@ RecruitmentLog::RecruitmentLog(const Network& network, std::vector<std::string> 
     : network_(network), parameters_(std::move(parameters)), events_(observables::event_table()) {
   if (parameters_.empty()) return;
   sensitivities_ = observables::event_table();
-  add_derivative_columns(sensitivities_, "time");
-}
-
-void RecruitmentLog::add_derivative_columns(observables::Table& table, std::string_view quantity) const {
-  for (const auto& key : parameters_) {
-    auto head = observables::sensitivity_column(quantity, "s", key, scene::find_parameter(key)->unit);
-    table.add(std::move(head.name), std::move(head.unit));
-  }
+  observables::add_sensitivity_columns(sensitivities_, "time", "s", parameters_);
 }
 
 int RecruitmentLog::events() const {
@@ -78,7 +71,7 @@ void RecruitmentLog::end_last_beat(double time) {
   table.add("point", "");
   table.add("family", "1");
   table.add("recruited_time", "s");
-  add_derivative_columns(table, "recruited_time");
+  observables::add_sensitivity_columns(table, "recruited_time", "s", parameters_);
   for (std::size_t i = 0; i < tallies_.size(); ++i) {
     const auto& threshold = network_.curve().thresholds()[i];
     const Tally& tally = tallies_[i];

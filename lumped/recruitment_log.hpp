@@ -38,7 +38,6 @@ class RecruitmentLog {
     std::vector<double> derivatives;
   };
   std::vector<double> derivatives(const Integrator& integrator, const radial::Threshold& threshold) const;
-  void add_derivative_columns(observables::Table& table, std::string_view quantity) const;
 
   const Network& network_;
   std::vector<std::string> parameters_;

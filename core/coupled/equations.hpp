@@ -30,6 +30,13 @@ inline double rate(const Stage& stage, std::span<const double> y, std::size_t en
   return stage.coefficient * y[entry] + history;
 }
 
+/// A direction in which state and stage change with a parameter: the derivatives of the state, and a stage
+/// whose history and mesh are those of the stage's.
+struct Direction {
+  Stage stage;
+  std::span<const double> y;
+};
+
 /// Smallest Jacobian of the deformation found, and where.
 struct LeastJacobian {
   double value = 1;

@@ -30,16 +30,21 @@ bool Newton::evaluate(const Stage& stage, std::span<double> y) {
   return equations_.residual(stage, y, residual_);
 }
 
-bool Newton::factorise(const Stage& stage, std::span<double> y) {
+bool Newton::refresh(const Stage& stage, std::span<const double> y) {
   ++counts_.factorisations;
   factorised_ = solver_->factorise(stage, y);
   return factorised_;
 }
 
+bool Newton::linearised(std::span<double> right_hand_side) {
+  const bool solved = solver_->solve(right_hand_side);
+  counts_.linear_iterations += solver_->iterations();
+  return solved;
+}
+
 void Newton::correct(std::vector<double>& correction) {
   correction.assign(residual_.begin(), residual_.end());
-  if (!solver_->solve(correction)) std::fill(correction.begin(), correction.end(), NAN);
-  counts_.linear_iterations += solver_->iterations();
+  if (!linearised(correction)) std::fill(correction.begin(), correction.end(), NAN);
   for (double& entry : correction) entry = -entry;
 }
 
@@ -129,7 +134,7 @@ NewtonReport Newton::solve(const Stage& stage, std::span<double> y, const Newton
     }
   }
   while (report.iterations < options.most_iterations) {
-    if (!factorise(stage, y)) {
+    if (!refresh(stage, y)) {
       report.failure = singular;
       return report;
     }

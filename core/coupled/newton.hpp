@@ -58,6 +58,13 @@ class Newton {
   /// velocities are put in place. When it does not converge, y is of no use.
   NewtonReport solve(const Stage& stage, std::span<double> y, const NewtonOptions& options);
 
+  /// Computes the derivative at a complete state and factorises it, for linearised() and for what is solved
+  /// next. False when it is singular.
+  bool refresh(const Stage& stage, std::span<const double> y);
+  /// Overwrites a right-hand side with the solution of the equations linearised where the derivative was last
+  /// computed. False when none was found.
+  bool linearised(std::span<double> right_hand_side);
+
   /// Drops the factorisation, so that what follows does not depend on what came before.
   void forget();
 
@@ -77,7 +84,6 @@ class Newton {
   enum class Outcome { converged, slow, failed };
 
   bool evaluate(const Stage& stage, std::span<double> y);
-  bool factorise(const Stage& stage, std::span<double> y);
   /// correction = -(derivative)^-1 residual; not finite where no solution was found.
   void correct(std::vector<double>& correction);
   void add(std::span<double> y, double factor, const std::vector<double>& correction) const;

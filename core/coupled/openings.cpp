@@ -35,6 +35,17 @@ void add_scalars(const InletCondition& inlet, const OutletCondition& outlet, con
       outlet.compliance * rate(stage, y, stored) + (y[stored] - beyond) / outlet.resistance;
 }
 
+void add_scalar_change(const OutletCondition& outlet, const Layout& layout, const Stage& along,
+                       std::span<const double> y, std::span<double> change) {
+  if (!layout.outlet_pressure) return;
+  double& row = change[layout.unknown(*layout.outlet_pressure)];
+  row += y[*layout.outlet_pressure];
+  if (!layout.windkessel_pressure) return;
+  const std::size_t stored = *layout.windkessel_pressure;
+  row -= y[stored];
+  change[layout.unknown(stored)] += outlet.compliance * rate(along, y, stored) + y[stored] / outlet.resistance;
+}
+
 std::vector<ScalarEntry> scalar_tangent(const OutletCondition& outlet, const Layout& layout,
                                         double coefficient) {
   if (!layout.outlet_pressure) return {};

@@ -89,6 +89,10 @@ double pressure_on(const Conditions<dimension>& conditions, const Layout& layout
 void add_scalars(const InletCondition& inlet, const OutletCondition& outlet, const Layout& layout,
                  const Stage& stage, std::span<const double> y, std::span<double> residual);
 
+/// Derivative of add_scalars along a direction in which the state, and the history of the stage, change.
+void add_scalar_change(const OutletCondition& outlet, const Layout& layout, const Stage& along,
+                       std::span<const double> y, std::span<double> change);
+
 /// Their derivative: an entry of the matrix.
 struct ScalarEntry {
   int row, column;

@@ -96,6 +96,7 @@ void Simulation::advance(double stop) {
   if (jumps_at(time())) {
     scheme_.start(time(), scheme_.value());
     control_.restart();
+    if (companion_) companion_->restart(time());
   }
   const NewtonOptions newton{options_.newton_tolerance, 60};
   for (;;) {
@@ -116,7 +117,9 @@ void Simulation::advance(double stop) {
       verdict = control_.solve_failed();
     }
     if (verdict == time::Verdict::give_up) give_up(report);
-    if (verdict == time::Verdict::accept) break;
+    if (verdict != time::Verdict::accept) continue;
+    if (companion_) companion_->step(step, stage, candidate_, newton_);
+    break;
   }
   step_begin_ = time();
   equations_.follow(scheme_.stage().time, candidate_);
@@ -150,18 +153,34 @@ std::vector<std::vector<double>> unpack_all(const nlohmann::json& list) {
 
 }  // namespace
 
+nlohmann::json save_scheme(const time::Scheme& scheme) {
+  const auto saved = scheme.save();
+  return {{"steps", saved.steps},
+          {"rate_given", saved.rate_given},
+          {"numbers", pack(std::vector<double>{saved.time, saved.step_sizes[0], saved.step_sizes[1],
+                                               saved.rate_offsets[0], saved.rate_offsets[1]})},
+          {"values", pack_all(saved.values)},
+          {"rates", pack_all(saved.rates)}};
+}
+
+void restore_scheme(const nlohmann::json& saved, time::Scheme& scheme) {
+  const auto numbers = unpack(saved.at("numbers"));
+  time::Scheme::Saved past;
+  past.steps = saved.at("steps");
+  past.rate_given = saved.at("rate_given");
+  past.time = numbers.at(0);
+  past.step_sizes = {numbers.at(1), numbers.at(2)};
+  past.rate_offsets = {numbers.at(3), numbers.at(4)};
+  past.values = unpack_all(saved.at("values"));
+  past.rates = unpack_all(saved.at("rates"));
+  scheme.restore(past);
+}
+
 nlohmann::json Simulation::save() const {
-  const auto scheme = scheme_.save();
   const auto& control = control_.save();
   const auto& sizes = newton_.sizes();
   nlohmann::json saved;
-  saved["scheme"] = {
-      {"steps", scheme.steps},
-      {"rate_given", scheme.rate_given},
-      {"numbers", pack(std::vector<double>{scheme.time, scheme.step_sizes[0], scheme.step_sizes[1],
-                                           scheme.rate_offsets[0], scheme.rate_offsets[1]})},
-      {"values", pack_all(scheme.values)},
-      {"rates", pack_all(scheme.rates)}};
+  saved["scheme"] = save_scheme(scheme_);
   saved["control"] = {
       {"numbers", pack(std::vector<double>{control.wanted, control.tried, control.tried_end, control.regular,
                                            control.cell_end, control.accepted, control.error_before})},
@@ -174,17 +193,7 @@ nlohmann::json Simulation::save() const {
 }
 
 void Simulation::restore(const nlohmann::json& saved) {
-  const auto& s = saved.at("scheme");
-  const auto numbers = unpack(s.at("numbers"));
-  time::Scheme::Saved scheme;
-  scheme.steps = s.at("steps");
-  scheme.rate_given = s.at("rate_given");
-  scheme.time = numbers.at(0);
-  scheme.step_sizes = {numbers.at(1), numbers.at(2)};
-  scheme.rate_offsets = {numbers.at(3), numbers.at(4)};
-  scheme.values = unpack_all(s.at("values"));
-  scheme.rates = unpack_all(s.at("rates"));
-  scheme_.restore(scheme);
+  restore_scheme(saved.at("scheme"), scheme_);
   const auto& c = saved.at("control");
   const auto steps = unpack(c.at("numbers"));
   const auto counts = c.at("counts").get<std::vector<long>>();

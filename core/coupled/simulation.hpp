@@ -39,6 +39,22 @@ class ExpectedMesh {
   std::vector<double> mesh_, rate_;  ///< empty where the mesh is unknown
 };
 
+/// What goes along with the accepted steps of a simulation.
+class StepCompanion {
+ public:
+  virtual ~StepCompanion() = default;
+  /// The scheme begins anew, after a jump of the loads.
+  virtual void restart(double time) = 0;
+  /// A step was solved: its stage, and the state that solves it, before the mesh follows where it lags. The
+  /// derivative may be computed anew.
+  virtual void step(const time::Step& step, const Stage& stage, std::span<const double> y,
+                    Newton& newton) = 0;
+};
+
+/// A scheme's past for a checkpoint, and back.
+nlohmann::json save_scheme(const time::Scheme& scheme);
+void restore_scheme(const nlohmann::json& saved, time::Scheme& scheme);
+
 /// Computes a vessel step by step.
 class Simulation {
  public:
@@ -52,6 +68,9 @@ class Simulation {
   /// Takes one step that does not go beyond `stop`; steps whose error is too large and steps that are not
   /// solved are repeated with smaller ones. Throws SolverFailure at the smallest step: when, where and why.
   void advance(double stop);
+
+  /// From now on; it must outlive the simulation. Null for none.
+  void accompany(StepCompanion* companion) { companion_ = companion; }
 
   double time() const { return scheme_.time(); }
   double step_begin() const { return step_begin_; }  ///< of the last step
@@ -80,6 +99,7 @@ class Simulation {
   [[noreturn]] void give_up(const NewtonReport& report) const;
 
   const Equations& equations_;
+  StepCompanion* companion_ = nullptr;
   SimulationOptions options_;
   Newton newton_;
   time::Scheme scheme_;

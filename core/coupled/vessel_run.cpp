@@ -78,9 +78,13 @@ class VesselRun final : public TierRun {
         end_(stops_.back().time),
         simulation_(vessel_->equations(), options_of(scene, *vessel_, end_)),
         observer_(vessel_->observer()),
-        log_(event_places()),
+        keys_(scene.texts("sensitivity.parameters")),
+        log_(event_places(), keys_),
         inlet_watch_(still_velocity * std::numbers::pi * loading_.lumen_radius * loading_.lumen_radius,
                      scene.text("inlet.pressure_kind") == "total") {
+    if (!keys_.empty())
+      sensitivities_ = std::make_unique<Sensitivities>(vessel_->keyed(vessel_->equations()),
+                                                       options_of(scene, *vessel_, end_));
     prepare_tables();
     describe_run();
     result_.record.setup_seconds = seconds_since(began_);
@@ -127,12 +131,15 @@ class VesselRun final : public TierRun {
 
   void prepare_tables() {
     result_.observables = observer_.observables_table();
+    result_.sensitivities = observables::sensitivity_table(keys_);
     result_.profiles = observables::profile_table();
     result_.along = observer_.along_table();
     if (scene_.number("output.field_interval") > 0) result_.fields = vessel_->fields().empty_series();
     // A checkpoint is made of copies of all that there is: as numbers, packed, and as the file's text.
     constexpr double copies = 5;
-    observables::check_output_memory(scene_, stops_, result_.observables.columns().size(),
+    observables::check_output_memory(scene_, stops_,
+                                     result_.observables.columns().size() +
+                                         result_.sensitivities.columns().size(),
                                      observables::numbers_of_a_time(result_.fields), copies);
   }
 
@@ -204,6 +211,8 @@ class VesselRun final : public TierRun {
   void sample(double time, std::span<const double> y, bool row, bool profile, bool field) {
     if (row) {
       observer_.append_observables(time, y, result_.observables);
+      if (sensitivities_)
+        observables::append_sensitivities(result_.sensitivities, time, sensitivities_->sample(time, y));
       inlet_watch_.look(time, vessel_->equations().flow({time, 0, {}}, y, Boundary::inlet));
     }
     if (profile) {
@@ -246,13 +255,20 @@ class VesselRun final : public TierRun {
     phase_ = Phase::steady;
     const double tolerance = 1e-5 * vessel_->local_tolerance();
     const auto own = vessel_->steady_mesh();
-    if (!own)
-      return static_state(loading_, vessel_->equations(), vessel_->coarser(), simulation_.newton(), time,
-                          tolerance, interrupted, static_);
+    if (!own) {
+      auto state = static_state(loading_, vessel_->equations(), vessel_->coarser(), simulation_.newton(),
+                                time, tolerance, interrupted, static_);
+      if (sensitivities_ && !state.empty())
+        sensitivities_->start(
+            0, steady_sensitivities(sensitivities_->keyed(), simulation_.newton(), time, state));
+      return state;
+    }
     Newton newton(own->equations());
     newton.set_sizes(simulation_.newton().sizes());
     auto state = static_state(own->loading(), own->equations(), vessel_->coarser(), newton, time, tolerance,
                               interrupted, static_);
+    if (sensitivities_ && !state.empty())
+      sensitivities_->start(0, steady_sensitivities(*vessel_->keyed(own->equations()), newton, time, state));
     simulation_.newton().set_sizes(newton.sizes());
     static_.coarse += newton.counts();
     return state;
@@ -275,6 +291,7 @@ class VesselRun final : public TierRun {
     if (begin.state.empty()) return false;
     phase_ = Phase::beats;
     simulation_.start(0, std::move(begin.state), std::move(begin.rates));
+    if (sensitivities_ && start == "rest") sensitivities_->start_at_rest(0, simulation_.state());
     event_values_ = event_values(simulation_.state());
     return true;
   }
@@ -296,6 +313,7 @@ class VesselRun final : public TierRun {
       }
       if (scene_.text("time.start") != "rest") control.save(checkpoint(seconds()));
     }
+    if (sensitivities_) simulation_.accompany(sensitivities_.get());
     std::vector<double> between(simulation_.layout().size());
     while (next_stop_ < stops_.size()) {
       if (control.interrupted()) {
@@ -366,9 +384,23 @@ class VesselRun final : public TierRun {
           begin_last_beat(stops_[s].time, y);
           stops_[s].begins_last_beat = false;
         }
-      log_.record(event.time, event.place, event.recruited);
+      log_.record(event.time, event.place, event.recruited, moved(event.time, event.place, between));
     }
     event_values_ = values;
+  }
+
+  /// Derivatives by the keys of the time at which fibres pass their threshold.
+  std::vector<double> moved(double time, std::size_t place, std::vector<double>& between) {
+    if (!sensitivities_) return {};
+    const double begin = simulation_.step_begin(), end = simulation_.time(), near = 1e-3 * (end - begin);
+    const double before = std::max(begin, time - near), after = std::min(end, time + near);
+    const auto excess = [&](double at) {
+      simulation_.interpolate(at, between);
+      return event_values(between)[place];
+    };
+    const double speed = (excess(after) - excess(before)) / (after - before);
+    simulation_.interpolate(time, between);
+    return sensitivities_->event_times(time, between, place, speed);
   }
 
   Checkpoint checkpoint(double seconds) {
@@ -388,6 +420,7 @@ class VesselRun final : public TierRun {
                     {result_.record.newton_iterations, result_.record.linear_iterations,
                      result_.record.resolution["factorisations"].get<long>(), static_.load_steps,
                      static_.rejected, static_.guesses_missed}}};
+    if (sensitivities_) saved.state["sensitivities"] = sensitivities_->save();
     return saved;
   }
 
@@ -406,7 +439,8 @@ class VesselRun final : public TierRun {
     if (saved.state.at("last_beat_begun"))
       for (auto& stop : stops_) stop.begins_last_beat = false;
     event_values_ = unpack(saved.state.at("event_values"));
-    log_.restore(saved.state.at("events"), result_.events);
+    log_.restore(saved.state.at("events"), result_);
+    if (sensitivities_) sensitivities_->restore(saved.state.at("sensitivities"));
     inlet_watch_.restore(unpack(saved.state.at("inlet")));
     step_seconds_ = unpack(saved.state.at("step_seconds"));
     const auto counts = saved.state.at("counts").get<std::vector<long>>();
@@ -428,6 +462,8 @@ class VesselRun final : public TierRun {
   double end_;
   Simulation simulation_;
   const Observing& observer_;
+  std::vector<std::string> keys_;
+  std::unique_ptr<Sensitivities> sensitivities_;  ///< null without keys
   observables::EventLog log_;
   InletWatch inlet_watch_;
   StaticReport static_;

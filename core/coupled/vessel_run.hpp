@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/coupled/sensitivity.hpp"
 #include "core/coupled/static_state.hpp"
 #include "core/observables/event_log.hpp"
 #include "core/tier.hpp"
@@ -53,6 +54,9 @@ class Vessel {
   /// Equations whose steady states are found, where those of equations() are for steps in time alone: their
   /// mesh lags. Null where they serve both.
   virtual std::unique_ptr<StaticMesh> steady_mesh() const { return nullptr; }
+  /// The vessel's equations, or those of its steady states, with their derivatives by the keys of
+  /// sensitivity.parameters. Null for a tier that has none.
+  virtual std::unique_ptr<KeyedEquations> keyed(const Equations& /*equations*/) const { return nullptr; }
   virtual const Observing& observer() const = 0;
   virtual const Picturing& fields() const = 0;
   virtual double local_tolerance() const = 0;   ///< of a time step

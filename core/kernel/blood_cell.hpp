@@ -67,6 +67,20 @@ physics::BloodState<double> blood_state(const BloodPoint<Frame, Width>& at,
   return state;
 }
 
+template <class D>
+physics::BloodState<D> lift(const physics::BloodState<double>& plain) {
+  physics::BloodState<D> state;
+  for (int i = 0; i < 3; ++i) {
+    state.velocity[i] = D(plain.velocity[i]);
+    state.acceleration[i] = D(plain.acceleration[i]);
+    state.mesh_velocity[i] = D(plain.mesh_velocity[i]);
+  }
+  state.velocity_gradient = tunica::lift<D>(plain.velocity_gradient);
+  state.mesh_gradient = tunica::lift<D>(plain.mesh_gradient);
+  state.pressure = D(plain.pressure);
+  return state;
+}
+
 template <class Frame, int Width>
 Vector<double> pressure_gradient(const BloodPoint<Frame, Width>& at, const BloodNodes<Frame, Width>& nodes) {
   Vector<double> gradient{};
@@ -75,9 +89,10 @@ Vector<double> pressure_gradient(const BloodPoint<Frame, Width>& at, const Blood
   return gradient;
 }
 
-inline double stabilisation(const BloodParameters& parameters, const Vector<double>& velocity) {
-  return physics::stabilisation_time(parameters.blood, parameters.rate_coefficient,
-                                     std::sqrt(dot(velocity, velocity)), parameters.stabilised_size);
+template <class S>
+S stabilisation(const BloodParameters& parameters, const Vector<S>& velocity) {
+  return physics::stabilisation_time(parameters.blood, parameters.rate_coefficient, S(dot(velocity, velocity)),
+                                     parameters.stabilised_size);
 }
 
 }  // namespace detail
@@ -171,8 +186,8 @@ void add_blood_tangent(const BloodParameters& parameters, const BloodPoint<Frame
   const auto plain_gradient = detail::pressure_gradient(at, nodes);
   for (int i = 0; i < 3; ++i) pressure_gradient[i] = D(plain_gradient[i]);
   for (int k = 0; k < m; ++k) pressure_gradient[Frame::axes[k]].derivative[pressure + 1 + k] = 1;
-  const auto flux = physics::pressure_stabilisation(detail::stabilisation(parameters, plain_state.velocity),
-                                                    state, balance, pressure_gradient);
+  const auto flux = physics::pressure_stabilisation(detail::stabilisation(parameters, state.velocity), state,
+                                                    balance, pressure_gradient);
   const auto continuity = [&](int from) {
     return [&, from](int out, int in) {
       return out == 0 ? balance.volume_rate.derivative[from + in]
@@ -191,7 +206,7 @@ void add_blood_tangent(const BloodParameters& parameters, const BloodPoint<Frame
 }  // namespace detail
 
 /// Adds the derivative of the residual at a quadrature point, those by the motion of the mesh included unless
-/// it is given. The time of the pressure stabilisation is taken as constant.
+/// it is given.
 template <class Frame, int Width>
 void add_blood_tangent(const BloodParameters& parameters, const BloodPoint<Frame, Width>& at,
                        const BloodNodes<Frame, Width>& nodes, BloodTangent<Frame, Width>& tangent) {
@@ -199,6 +214,60 @@ void add_blood_tangent(const BloodParameters& parameters, const BloodPoint<Frame
     detail::add_blood_tangent<false>(parameters, at, nodes, tangent);
   else
     detail::add_blood_tangent<true>(parameters, at, nodes, tangent);
+}
+
+/// Adds the derivatives of the residual along directions, each given by the nodal values that change with it.
+template <std::size_t Directions, class Frame, int Width>
+void add_blood_change(const BloodParameters& parameters, const BloodPoint<Frame, Width>& at,
+                      const BloodNodes<Frame, Width>& nodes,
+                      const std::array<BloodNodes<Frame, Width>, Directions>& along,
+                      std::array<BloodResidual<Frame, Width>, Directions>& change) {
+  using D = Dual<double, static_cast<int>(Directions)>;
+  const auto plain = detail::blood_state(at, nodes);
+  auto state = detail::lift<D>(plain);
+  Vector<D> pressure_gradient;
+  const auto plain_gradient = detail::pressure_gradient(at, nodes);
+  for (int i = 0; i < 3; ++i) pressure_gradient[i] = D(plain_gradient[i]);
+  for (std::size_t k = 0; k < Directions; ++k) {
+    const auto moved = detail::blood_state(at, along[k]);
+    for (int i = 0; i < 3; ++i) {
+      state.velocity[i].derivative[k] = moved.velocity[i];
+      state.acceleration[i].derivative[k] = moved.acceleration[i];
+      state.mesh_velocity[i].derivative[k] = moved.mesh_velocity[i];
+    }
+    for (int e = 0; e < 9; ++e) {
+      state.velocity_gradient.entries[e].derivative[k] = moved.velocity_gradient.entries[e];
+      state.mesh_gradient.entries[e].derivative[k] = moved.mesh_gradient.entries[e];
+    }
+    state.pressure.derivative[k] = moved.pressure;
+    const auto gradient = detail::pressure_gradient(at, along[k]);
+    for (int i = 0; i < 3; ++i) pressure_gradient[i].derivative[k] = gradient[i];
+  }
+  const auto balance = physics::blood_balance(parameters.blood, state);
+  Vector<D> flux{};
+  const bool stabilised = parameters.stabilised_size > 0;
+  if (stabilised)
+    flux = physics::pressure_stabilisation(detail::stabilisation(parameters, state.velocity), state, balance,
+                                           pressure_gradient);
+  for (std::size_t k = 0; k < Directions; ++k) {
+    Vector<double> force;
+    Tensor<double> stress, moved;
+    for (int i = 0; i < 3; ++i) force[i] = balance.force[i].derivative[k];
+    for (int e = 0; e < 9; ++e) {
+      stress.entries[e] = balance.stress.entries[e].derivative[k];
+      moved.entries[e] = state.mesh_gradient.entries[e].derivative[k];
+    }
+    test_vector(at.weight, force, stress, at.velocity, change[k].momentum);
+    test_vector(at.weight, Vector<double>{}, physics::mesh_motion_flux(parameters.mesh_stiffness, moved),
+                at.displacement, change[k].mesh);
+    for (int l = 0; l < Width; ++l) {
+      double rate = balance.volume_rate.derivative[k] * at.pressure.lift[0][l];
+      if (stabilised)
+        for (int a = 0; a < Frame::dimension; ++a)
+          rate += flux[Frame::axes[a]].derivative[k] * at.pressure.lift[1 + a][l];
+      change[k].continuity[l] += at.weight * rate;
+    }
+  }
 }
 
 }  // namespace tunica::kernel

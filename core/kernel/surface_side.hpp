@@ -74,6 +74,41 @@ void add_side_residual(const Terms& terms, const SidePoint<Frame, Width>& at,
   residual.leaving += at.weight * std::max(values.flow, 0.0);
 }
 
+/// Adds the derivatives of the residual along directions, each given by the nodal values that change with it.
+template <std::size_t Directions, class Frame, int Width, class Terms>
+void add_side_change(const Terms& terms, const SidePoint<Frame, Width>& at,
+                     const SideNodes<Frame, Width>& nodes,
+                     const std::array<SideNodes<Frame, Width>, Directions>& along,
+                     std::array<SideResidual<Frame, Width>, Directions>& change) {
+  using D = Dual<double, static_cast<int>(Directions)>;
+  const auto plain_state = detail::surface_state(at, nodes);
+  SurfaceState<D> state;
+  for (int i = 0; i < 3; ++i) {
+    state.displacement[i] = D(plain_state.displacement[i]);
+    state.velocity[i] = D(plain_state.velocity[i]);
+    state.mesh_velocity[i] = D(plain_state.mesh_velocity[i]);
+  }
+  state.gradient = lift<D>(plain_state.gradient);
+  state.pressure = D(plain_state.pressure);
+  for (std::size_t k = 0; k < Directions; ++k) {
+    const auto moved = detail::surface_state(at, along[k]);
+    for (int i = 0; i < 3; ++i) {
+      state.displacement[i].derivative[k] = moved.displacement[i];
+      state.velocity[i].derivative[k] = moved.velocity[i];
+      state.mesh_velocity[i].derivative[k] = moved.mesh_velocity[i];
+    }
+    for (int e = 0; e < 9; ++e) state.gradient.entries[e].derivative[k] = moved.gradient.entries[e];
+    state.pressure.derivative[k] = moved.pressure;
+  }
+  const SurfaceTerms<D> values = terms(state, at.normal);
+  for (std::size_t k = 0; k < Directions; ++k) {
+    Vector<double> load;
+    for (int i = 0; i < 3; ++i) load[i] = values.load[i].derivative[k];
+    test_vector(at.weight, load, Tensor<double>{}, at.shapes, change[k].momentum);
+    change[k].flow += at.weight * values.flow.derivative[k];
+  }
+}
+
 template <class Frame, int Width, class Terms>
 void add_side_tangent(const Terms& terms, double rate_coefficient, const SidePoint<Frame, Width>& at,
                       const SideNodes<Frame, Width>& nodes, SideTangent<Frame, Width>& tangent) {

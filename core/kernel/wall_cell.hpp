@@ -144,6 +144,15 @@ void add_wall_residual(const WallParameters& parameters, const std::vector<WallP
   }
 }
 
+/// Adds what a change of the acceleration alone does to the residual, which is linear in it.
+template <class Frame, int Width>
+void add_inertia(double density, const std::vector<WallPoint<Frame, Width>>& points,
+                 const NodalVector<Frame, Width>& acceleration, NodalVector<Frame, Width>& momentum) {
+  for (const auto& at : points)
+    test_vector(at.weight, physics::wall_inertia(density, field_value(at.displacement, acceleration)),
+                Tensor<double>{}, at.displacement, momentum);
+}
+
 template <class Frame, int Width>
 void add_wall_tangent(const WallParameters& parameters, const std::vector<WallPoint<Frame, Width>>& points,
                       const WallNodes<Frame, Width>& nodes, WallTangent<Frame, Width>& tangent) {

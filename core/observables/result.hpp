@@ -89,6 +89,9 @@ struct Sample {
   WallPoint wall[wall_points];
 };
 
+/// (upper - lower) / step, value by value; the time is that of both.
+Sample difference_quotient(const Sample& upper, const Sample& lower, double step);
+
 /// An empty table with the columns of observables.csv.
 Table standard_table();
 /// Appends one row to a table made by standard_table; columns that were added after those are left to the
@@ -145,6 +148,14 @@ struct ColumnHead {
 };
 ColumnHead sensitivity_column(std::string_view quantity, std::string_view quantity_unit, std::string_view key,
                               std::string_view key_unit);
+/// Adds such a column for each of the keys.
+void add_sensitivity_columns(Table& table, std::string_view quantity, std::string_view quantity_unit,
+                             const std::vector<std::string>& keys);
+
+/// An empty table with the columns of sensitivities.csv, key by key; none without keys.
+Table sensitivity_table(const std::vector<std::string>& keys);
+/// Appends one row to a table made by sensitivity_table: the derivatives of a sample by each of its keys.
+void append_sensitivities(Table& table, double time, const std::vector<Sample>& derivatives);
 
 }  // namespace observables
 

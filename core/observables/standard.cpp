@@ -122,4 +122,76 @@ ColumnHead sensitivity_column(std::string_view quantity, std::string_view quanti
           key_unit == "1" ? std::string(quantity_unit) : fmt::format("({})/({})", quantity_unit, key_unit)};
 }
 
+void add_sensitivity_columns(Table& table, std::string_view quantity, std::string_view quantity_unit,
+                             const std::vector<std::string>& keys) {
+  for (const auto& key : keys) {
+    auto head = sensitivity_column(quantity, quantity_unit, key, scene::find_parameter(key)->unit);
+    table.add(std::move(head.name), std::move(head.unit));
+  }
+}
+
+namespace {
+
+/// What has sensitivities, in the order of their columns.
+struct SectionQuantity {
+  const char* name;
+  const char* unit;
+  double Sample::*value;
+};
+constexpr SectionQuantity section_quantities[] = {
+    {"pressure", "dyn/cm2", &Sample::pressure},
+    {"outlet_pressure", "dyn/cm2", &Sample::outlet_pressure},
+    {"transmural_pressure", "dyn/cm2", &Sample::transmural_pressure},
+    {"inflow", "cm3/s", &Sample::inflow},
+    {"outflow", "cm3/s", &Sample::outflow}};
+struct PointQuantity {
+  const char* name;
+  const char* unit;
+  double WallPoint::*value;
+};
+constexpr PointQuantity point_quantities[] = {{"radial_displacement", "cm", &WallPoint::radial_displacement},
+                                              {"fiber_angle", "deg", &WallPoint::fiber_angle},
+                                              {"fiber_stretch", "1", &WallPoint::fiber_stretch},
+                                              {"recruitment", "1", &WallPoint::recruitment},
+                                              {"von_mises", "dyn/cm2", &WallPoint::von_mises}};
+
+}  // namespace
+
+Sample difference_quotient(const Sample& upper, const Sample& lower, double step) {
+  Sample quotient;
+  quotient.time = upper.time;
+  for (const auto& quantity : section_quantities)
+    quotient.*quantity.value = (upper.*quantity.value - lower.*quantity.value) / step;
+  for (int p = 0; p < wall_points; ++p)
+    for (const auto& quantity : point_quantities)
+      quotient.wall[p].*quantity.value =
+          (upper.wall[p].*quantity.value - lower.wall[p].*quantity.value) / step;
+  return quotient;
+}
+
+Table sensitivity_table(const std::vector<std::string>& keys) {
+  Table table;
+  if (keys.empty()) return table;
+  table.add("time", "s");
+  for (const auto& key : keys) {
+    for (const auto& quantity : section_quantities)
+      add_sensitivity_columns(table, quantity.name, quantity.unit, {key});
+    for (const auto& quantity : point_quantities)
+      for (int p = 1; p <= wall_points; ++p)
+        add_sensitivity_columns(table, fmt::format("{}.P{}", quantity.name, p), quantity.unit, {key});
+  }
+  return table;
+}
+
+void append_sensitivities(Table& table, double time, const std::vector<Sample>& derivatives) {
+  std::size_t column = 0;
+  const auto put = [&](double value) { table[column++].values.push_back(value); };
+  put(time);
+  for (const Sample& derivative : derivatives) {
+    for (const auto& quantity : section_quantities) put(derivative.*quantity.value);
+    for (const auto& quantity : point_quantities)
+      for (const WallPoint& point : derivative.wall) put(point.*quantity.value);
+  }
+}
+
 }  // namespace tunica::observables

@@ -60,7 +60,7 @@ BloodBalance<S> blood_balance(const Blood& blood, const BloodState<S>& state) {
 /// Appl. Mech. 28:1, 1992), J tau F^-1 [ rho dv/dt + rho grad v (v - w) + grad p ]. `time` is tau/rho, which
 /// the caller takes from the size of the cell, in s cm3/g. Second derivatives of v vanish for linear bases.
 template <class S>
-Vector<S> pressure_stabilisation(double time, const BloodState<S>& state, const BloodBalance<S>& balance,
+Vector<S> pressure_stabilisation(const S& time, const BloodState<S>& state, const BloodBalance<S>& balance,
                                  const Vector<S>& pressure_gradient) {
   const Tensor<S> f = Tensor<S>::identity() + state.mesh_gradient;
   const Tensor<S> cof = cofactor(f);
@@ -73,14 +73,17 @@ Vector<S> pressure_stabilisation(double time, const BloodState<S>& state, const 
 }
 
 /// tau/rho of pressure_stabilisation, s cm3/g: 1 / sqrt((2 rho c)^2 + (2 rho |v|/h)^2 + (12 mu/h^2)^2) for
-/// the rate coefficient c (1/s) of the time scheme and a cell of size h (cm). 0 where nothing limits it:
+/// the rate coefficient c (1/s) of the time scheme, |v|^2 and a cell of size h (cm). 0 where nothing limits it:
 /// steady blood at rest without viscosity.
-inline double stabilisation_time(const Blood& blood, double rate_coefficient, double speed, double size) {
+template <class S>
+S stabilisation_time(const Blood& blood, double rate_coefficient, const S& square_of_speed, double size) {
+  using std::sqrt;
   const double inertia = 2 * blood.density * rate_coefficient;
-  const double convection = 2 * blood.density * speed / size;
+  const double convection = 2 * blood.density / size;
   const double viscosity = 12 * blood.viscosity / (size * size);
-  const double sum = inertia * inertia + convection * convection + viscosity * viscosity;
-  return sum > 0 ? 1 / std::sqrt(sum) : 0;
+  const S sum =
+      inertia * inertia + viscosity * viscosity + (convection * convection) * square_of_speed;
+  return plain(sum) > 0 ? S(1.0 / sqrt(sum)) : S(0.0);
 }
 
 }  // namespace tunica::physics

@@ -55,4 +55,11 @@ std::size_t Scene::count(std::string_view array_key) const {
   return entry->second;
 }
 
+Scene Scene::with_number(std::string_view key, double value) const {
+  value_at<double>(*this, key);
+  Scene other = *this;
+  other.values_.find(key)->second = value;
+  return other;
+}
+
 }  // namespace tunica

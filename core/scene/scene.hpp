@@ -33,6 +33,10 @@ class Scene {
   /// Number of tables in an array of tables: count("wall.layers").
   std::size_t count(std::string_view array_key) const;
 
+  /// The scene with another value of a number, all else as it is and nothing checked: for derivatives, whose
+  /// values lie beside one that was.
+  Scene with_number(std::string_view key, double value) const;
+
   /// Name for titles and logs: the file's stem.
   const std::string& name() const { return name_; }
   /// Folder that relative file names in the scene start from.
