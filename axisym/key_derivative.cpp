@@ -29,7 +29,8 @@ KeyDerivative::Beside::Beside(const Scene& scene, const Resolution& resolution, 
       setup(like(of, conditions_of(scene.with_number(key, at), resolution))),
       assembler(setup->problem),
       observer(assembler) {
-  if (assembler.layout().unknowns() != of.layout().unknowns() || assembler.layout().size() != of.layout().size())
+  if (assembler.layout().unknowns() != of.layout().unknowns() ||
+      assembler.layout().size() != of.layout().size())
     throw std::logic_error("KeyDerivative: the vessel beside has other unknowns");
 }
 

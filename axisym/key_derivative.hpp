@@ -16,9 +16,9 @@ namespace tunica::axisym {
 /// that rounding leaves of the terms of an equation. Nodes move with the geometry, cells stay the same.
 class KeyDerivative final : public coupled::KeyDerivative {
  public:
-  /// `of` has the equations, of the scene, that are differentiated. Throws InvalidInput for a key that does
-  /// not act on a vessel of this tier.
-  KeyDerivative(const Scene& scene, const Resolution& resolution, const Assembler& of, const std::string& key);
+  /// `of` has the equations, of the scene, that are differentiated.
+  KeyDerivative(const Scene& scene, const Resolution& resolution, const Assembler& of,
+                const std::string& key);
 
   void residual(const Stage& stage, std::span<const double> y, std::span<double> rows) const override;
   void placed(const Stage& stage, std::span<const double> y, std::span<double> out) const override;

@@ -77,8 +77,13 @@ Mesh mesh_of(const Scene& scene, const Resolution& resolution, bool with_blood) 
   spec.radius = scene.number("geometry.radius");
   const double thickness = scene.number("geometry.thickness");
   const std::size_t layers = scene.count("wall.layers");
-  for (std::size_t i = 0; i < layers; ++i)
-    spec.layers.push_back(thickness * scene.number(fmt::format("wall.layers[{}].fraction", i)));
+  // Fractions count relative to their sum, which is 1 but for rounding and where one is varied by itself.
+  double sum = 0;
+  for (std::size_t i = 0; i < layers; ++i) {
+    spec.layers.push_back(scene.number(fmt::format("wall.layers[{}].fraction", i)));
+    sum += spec.layers.back();
+  }
+  for (double& layer : spec.layers) layer *= thickness / sum;
   if (layers == 0) spec.layers.push_back(thickness);
   spec.length = scene.number("geometry.length");
   spec.blood_cells = resolution.blood_cells;

@@ -36,11 +36,30 @@ WallLine::WallLine(const WallReader& reader, double height, const std::vector<do
   for (const double radius : radii) {
     const auto place = locate(mesh, {radius, height}, Part::wall);
     if (!place) throw std::logic_error("WallLine: a radius outside the wall");
-    Spot spot{radius, 0, in_innermost_layer(mesh, meeting_places(mesh, *place)), 0, {}};
+    Spot spot{radius, 0, in_innermost_layer(mesh, meeting_places(mesh, *place)), 0, {}, {}};
+    spot.axes = reader.axes(spot.places);
     spot.layer = mesh.cells[spot.places.front().cell].layer;
     choose_samples(spot);
     spots_.push_back(std::move(spot));
   }
+  for (const Sample& sample : samples_) note_cells(sample.places);
+  for (const Spot& spot : spots_) note_cells(spot.places);
+}
+
+void WallLine::note_cells(const std::vector<Place>& places) {
+  for (const Place& place : places) {
+    const auto at = std::lower_bound(cells_.begin(), cells_.end(), place.cell);
+    if (at == cells_.end() || *at != place.cell) cells_.insert(at, place.cell);
+  }
+}
+
+WallStrain WallLine::mean(const std::vector<Place>& places, const std::vector<WallCell>& cells) const {
+  WallStrain sum;
+  for (const Place& place : places) {
+    const auto at = std::lower_bound(cells_.begin(), cells_.end(), place.cell);
+    sum.add(1.0 / static_cast<double>(places.size()), cells[at - cells_.begin()].at(place.local));
+  }
+  return sum;
 }
 
 void WallLine::choose_samples(Spot& spot) const {
@@ -67,13 +86,16 @@ void WallLine::choose_samples(Spot& spot) const {
 }
 
 std::vector<WallState> WallLine::states(std::span<const double> y) const {
+  std::vector<WallCell> cells;
+  cells.reserve(cells_.size());
+  for (const int cell : cells_) cells.push_back(reader_.cell(cell, y));
   std::vector<WallStrain> sampled;
   sampled.reserve(samples_.size());
-  for (const Sample& sample : samples_) sampled.push_back(reader_.mean(sample.places, y));
+  for (const Sample& sample : samples_) sampled.push_back(mean(sample.places, cells));
   std::vector<WallState> states;
   states.reserve(spots_.size());
   for (const Spot& spot : spots_) {
-    WallStrain strain = reader_.mean(spot.places, y);
+    WallStrain strain = mean(spot.places, cells);
     if (!spot.weights.empty()) {
       WallStrain recovered;
       for (std::size_t k = 0; k < spot.weights.size(); ++k)
@@ -82,7 +104,7 @@ std::vector<WallState> WallLine::states(std::span<const double> y) const {
       recovered.gradient(1, 1) = strain.gradient(1, 1);
       strain = recovered;
     }
-    states.push_back({spot.radius, spot.layer, strain, reader_.axes(spot.places)});
+    states.push_back({spot.radius, spot.layer, strain, spot.axes});
   }
   return states;
 }

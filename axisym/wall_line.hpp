@@ -50,12 +50,17 @@ class WallLine {
     std::vector<Place> places;
     std::size_t first;            ///< of the samples
     std::vector<double> weights;  ///< empty: mean over the places
+    wall::MaterialAxes axes;
   };
   void choose_samples(Spot& spot) const;
+  void note_cells(const std::vector<Place>& places);
+  /// Mean over the places in those of cells_ at a state.
+  WallStrain mean(const std::vector<Place>& places, const std::vector<WallCell>& cells) const;
 
   const WallReader& reader_;
   std::vector<Sample> samples_;
   std::vector<Spot> spots_;
+  std::vector<int> cells_;  ///< that any of them are in, sorted: what each is at a state is found once
 };
 
 }  // namespace tunica::axisym

@@ -75,7 +75,7 @@ CLI::App* add_sweep_command(CLI::App& app, SweepArguments& arguments) {
          "With --indices: take more points until every interval is at most so wide (0.02)", "WIDTH")
       ->needs(indices);
   command->add_flag("--gradients", arguments.gradients,
-                    "Add the derivatives by the keys that vary (0D tier)");
+                    "Add the derivatives by the keys that vary (0D and 2D tiers)");
   option("--jobs", arguments.jobs, "Points computed at once (default: as many as there are cores)", "N");
   option("--ranks", arguments.ranks, "Processes of each 3D point, by mpirun", "N");
   auto* shard = option("--shard", arguments.shard,

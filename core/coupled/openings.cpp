@@ -43,7 +43,8 @@ void add_scalar_change(const OutletCondition& outlet, const Layout& layout, cons
   if (!layout.windkessel_pressure) return;
   const std::size_t stored = *layout.windkessel_pressure;
   row -= y[stored];
-  change[layout.unknown(stored)] += outlet.compliance * rate(along, y, stored) + y[stored] / outlet.resistance;
+  change[layout.unknown(stored)] +=
+      outlet.compliance * rate(along, y, stored) + y[stored] / outlet.resistance;
 }
 
 std::vector<ScalarEntry> scalar_tangent(const OutletCondition& outlet, const Layout& layout,

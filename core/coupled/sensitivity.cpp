@@ -13,8 +13,7 @@ namespace {
 /// prescribed entries, shares of the wall's displacement, and the wall's velocities. Displacements that are
 /// prescribed are so whatever the keys.
 void complete(const Layout& layout, const Stage& along, std::span<const double> placed, std::span<double> s) {
-  for (const auto& entry : layout.prescribed())
-    s[entry.entry] = entry.is_velocity ? placed[entry.entry] : 0;
+  for (const auto& entry : layout.prescribed()) s[entry.entry] = entry.is_velocity ? placed[entry.entry] : 0;
   layout.share_out(s);
   for (std::size_t e = 0; e < layout.velocity_begin(); ++e)
     if (layout.unknown(e) < 0) s[e] += placed[e];
@@ -136,8 +135,8 @@ void Sensitivities::restore(const nlohmann::json& saved) {
   for (std::size_t k = 0; k < schemes_.size(); ++k) restore_scheme(saved.at(k), schemes_[k]);
 }
 
-std::vector<std::vector<double>> steady_sensitivities(const KeyedEquations& keyed, Newton& newton, double time,
-                                                      std::span<const double> y) {
+std::vector<std::vector<double>> steady_sensitivities(const KeyedEquations& keyed, Newton& newton,
+                                                      double time, std::span<const double> y) {
   std::vector<std::vector<double>> s(keyed.keys());
   const Stage still{time, 0, {}};
   linearise(keyed, still, y, std::vector<Stage>(s.size(), still), newton, s);

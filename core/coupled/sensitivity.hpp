@@ -64,8 +64,7 @@ class Sensitivities final : public StepCompanion {
   std::vector<observables::Sample> sample(double time, std::span<const double> y);
   /// Derivatives of the time at which an event function passes zero, at a time within the last step; `speed`
   /// is its rate there.
-  std::vector<double> event_times(double time, std::span<const double> y, std::size_t event,
-                                  double speed);
+  std::vector<double> event_times(double time, std::span<const double> y, std::size_t event, double speed);
 
   nlohmann::json save() const;
   void restore(const nlohmann::json& saved);
@@ -82,7 +81,7 @@ class Sensitivities final : public StepCompanion {
 
 /// Derivatives by each key of a steady state of the equations. Throws SolverFailure where their derivative is
 /// singular.
-std::vector<std::vector<double>> steady_sensitivities(const KeyedEquations& keyed, Newton& newton, double time,
-                                                      std::span<const double> y);
+std::vector<std::vector<double>> steady_sensitivities(const KeyedEquations& keyed, Newton& newton,
+                                                      double time, std::span<const double> y);
 
 }  // namespace tunica::coupled

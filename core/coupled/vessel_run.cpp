@@ -137,10 +137,9 @@ class VesselRun final : public TierRun {
     if (scene_.number("output.field_interval") > 0) result_.fields = vessel_->fields().empty_series();
     // A checkpoint is made of copies of all that there is: as numbers, packed, and as the file's text.
     constexpr double copies = 5;
-    observables::check_output_memory(scene_, stops_,
-                                     result_.observables.columns().size() +
-                                         result_.sensitivities.columns().size(),
-                                     observables::numbers_of_a_time(result_.fields), copies);
+    observables::check_output_memory(
+        scene_, stops_, result_.observables.columns().size() + result_.sensitivities.columns().size(),
+        observables::numbers_of_a_time(result_.fields), copies);
   }
 
   void describe_run() {

@@ -91,8 +91,8 @@ Vector<double> pressure_gradient(const BloodPoint<Frame, Width>& at, const Blood
 
 template <class S>
 S stabilisation(const BloodParameters& parameters, const Vector<S>& velocity) {
-  return physics::stabilisation_time(parameters.blood, parameters.rate_coefficient, S(dot(velocity, velocity)),
-                                     parameters.stabilised_size);
+  return physics::stabilisation_time(parameters.blood, parameters.rate_coefficient,
+                                     S(dot(velocity, velocity)), parameters.stabilised_size);
 }
 
 }  // namespace detail

@@ -20,8 +20,7 @@ void EventLog::record(double time, std::size_t place, bool recruited, const std:
   if (!keys_.empty()) {
     const std::size_t first = events_.columns().size();
     append(event_sensitivities_, event);
-    for (std::size_t k = 0; k < keys_.size(); ++k)
-      event_sensitivities_[first + k].values.push_back(moved[k]);
+    for (std::size_t k = 0; k < keys_.size(); ++k) event_sensitivities_[first + k].values.push_back(moved[k]);
   }
   if (tallies_.empty()) return;
   Tally& tally = tallies_[place];
@@ -33,7 +32,7 @@ void EventLog::record(double time, std::size_t place, bool recruited, const std:
 
 void EventLog::begin_last_beat(double time, const std::vector<bool>& recruited) {
   tallies_.clear();
-  for (const bool is_recruited : recruited) 
+  for (const bool is_recruited : recruited)
     tallies_.push_back({time, 0.0, is_recruited, std::vector<double>(keys_.size(), 0.0)});
 }
 

@@ -81,8 +81,7 @@ S stabilisation_time(const Blood& blood, double rate_coefficient, const S& squar
   const double inertia = 2 * blood.density * rate_coefficient;
   const double convection = 2 * blood.density / size;
   const double viscosity = 12 * blood.viscosity / (size * size);
-  const S sum =
-      inertia * inertia + viscosity * viscosity + (convection * convection) * square_of_speed;
+  const S sum = inertia * inertia + viscosity * viscosity + (convection * convection) * square_of_speed;
   return plain(sum) > 0 ? S(1.0 / sqrt(sum)) : S(0.0);
 }
 

@@ -354,7 +354,7 @@ std::vector<Parameter> declare() {
                  {},
                  {},
                  "Keys of number parameters, for example \"outlet.resistance\": forward sensitivities of the "
-                 "observables and of the recruitment times are written for each (0D tier)."});
+                 "observables and of the recruitment times are written for each (0D and 2D tiers)."});
   return all;
 }
 

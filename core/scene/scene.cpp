@@ -59,6 +59,10 @@ Scene Scene::with_number(std::string_view key, double value) const {
   value_at<double>(*this, key);
   Scene other = *this;
   other.values_.find(key)->second = value;
+  if (key == "geometry.radius" && has("inlet.flow") && !was_set("inlet.flow")) {
+    const double ratio = value / number(key);
+    other.values_.find("inlet.flow")->second = number("inlet.flow") * ratio * ratio;
+  }
   return other;
 }
 

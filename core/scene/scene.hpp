@@ -33,8 +33,8 @@ class Scene {
   /// Number of tables in an array of tables: count("wall.layers").
   std::size_t count(std::string_view array_key) const;
 
-  /// The scene with another value of a number, all else as it is and nothing checked: for derivatives, whose
-  /// values lie beside one that was.
+  /// The scene with another value of a number and nothing checked: for derivatives, whose values lie beside
+  /// one that was. All else is as it is but for a flow that was not given, which follows the lumen's area.
   Scene with_number(std::string_view key, double value) const;
 
   /// Name for titles and logs: the file's stem.

@@ -173,6 +173,9 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         std::pair{"rest", Overrides{"accuracy.tolerance=1e-3"}},
         std::pair{"static", Overrides{"time.start=static", "time.step=4e-3"}},
+        std::pair{"sensitivities",
+                  Overrides{"accuracy.tolerance=1e-3",
+                            "sensitivity.parameters=['outlet.resistance', 'geometry.thickness']"}},
         std::pair{"periodic", Overrides{"time.start=periodic", "outlet.kind=rcr", "time.beats=3"}},
         std::pair{"pulses",
                   Overrides{pulse, "inlet.period=0.1", "time.beats=6", "time.ramp=0", "inlet.pressure=3000"}},
