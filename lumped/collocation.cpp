@@ -257,19 +257,15 @@ Collocation::State Collocation::within(double time) const {
 
 std::optional<Crossing> Collocation::cross(double until) {
   if (sides_.empty()) return {};
-  const auto values_at = [&](double time) {
-    system_.event_values(within(time).data(), event_values_.data());
-  };
-  values_at(until);
-  const std::vector<bool>::size_type count = sides_.size();
+  system_.event_values(within(until).data(), event_values_.data());
   double first = until;
   std::optional<Crossing> crossing;
-  for (std::size_t k = 0; k < count; ++k) {
-    values_at(until);
+  for (std::size_t k = 0; k < sides_.size(); ++k) {
     if ((event_values_[k] > 0) == sides_[k]) continue;
+    std::vector<double> values(sides_.size());
     const auto value = [&](double time) {
-      values_at(time);
-      return event_values_[k];
+      system_.event_values(within(time).data(), values.data());
+      return values[k];
     };
     // A function that is zero to round-off at this time has passed it already.
     const bool at_once = (value(time_) > 0) != sides_[k];

@@ -75,7 +75,8 @@ def whole_run(program):
 
 def against(program, whole_runs, folder):
     """Whole runs of another library beside points of sweeps, by turns; medians of the processor's time of one."""
-    at_bar = ["--tier", "lumped", "--set", "accuracy.tolerance=1e-3", *asked(EXTREMES)]
+    # One job each: threads that wait for others take the processor's time, too.
+    at_bar = ["--tier", "lumped", "--jobs", "1", "--set", "accuracy.tolerance=1e-3", *asked(EXTREMES)]
     grid = dict(zip(RANGES, (15, 15, 13)))
     rounds = []
     for _ in range(3):
