@@ -161,25 +161,27 @@ SweepTable read_sweep(const std::filesystem::path& folder) {
       share >= 1 ? std::numeric_limits<std::uint64_t>::max() : static_cast<std::uint64_t>(share * 0x1p64);
   const auto fidelities =
       sweep::fidelities_of(campaign.at("design"), campaign.value("tier", ""), campaign.at("points"));
-  stored.each([&](const sweep::Row& row) {
-    const bool is_done = row.status == "done";
-    if (!is_done) count_failure(table.failures, row);
-    // Curves and means of several tiers together would be those of none.
-    if (sweep::standing_of(fidelities, row.point).level > 0) return;
-    if (lot_of(row.point) > threshold) return;
-    table.numbers.push_back(row.point);
-    table.is_done.push_back(is_done ? 1 : 0);
-    for (std::size_t k = 0; k < table.keys.size(); ++k) {
-      SweepKey& key = table.keys[k];
-      if (!stored.keys()[k].unit.empty()) {
-        table.key_values[k].push_back(std::stod(row.keys[k]) * key.factor);
-        continue;
-      }
-      table.key_values[k].push_back(static_cast<double>(text_level(key.texts, row.keys[k])));
-    }
-    for (std::size_t q = 0; q < table.quantities.size(); ++q)
-      table.values[q].push_back(is_done ? row.numbers[q] * table.quantities[q].factor : none);
-  });
+  stored.each(
+      [&](const sweep::Row& row) {
+        const bool is_done = row.status == "done";
+        if (!is_done) count_failure(table.failures, row);
+        // Curves and means of several tiers together would be those of none.
+        if (sweep::standing_of(fidelities, row.point).level > 0) return;
+        if (lot_of(row.point) > threshold) return;
+        table.numbers.push_back(row.point);
+        table.is_done.push_back(is_done ? 1 : 0);
+        for (std::size_t k = 0; k < table.keys.size(); ++k) {
+          SweepKey& key = table.keys[k];
+          if (!stored.keys()[k].unit.empty()) {
+            table.key_values[k].push_back(std::stod(row.keys[k]) * key.factor);
+            continue;
+          }
+          table.key_values[k].push_back(static_cast<double>(text_level(key.texts, row.keys[k])));
+        }
+        for (std::size_t q = 0; q < table.quantities.size(); ++q)
+          table.values[q].push_back(is_done ? row.numbers[q] * table.quantities[q].factor : none);
+      },
+      table.quantities.size());
   for (std::size_t k = 0; k < table.keys.size(); ++k)
     find_levels(table.keys[k], campaign.at("design").at("parameters").at(k), table.key_values[k]);
   // What no point has, such as fibres' angles of walls without fibres, is no choice.

@@ -207,6 +207,39 @@ TEST_F(SweepExecution, WhatAShardHasIsInItsTable) {
   EXPECT_FALSE(fs::exists(path("again")));
 }
 
+// Quantities alone are handed over in a fraction of the time that they take with their gradients.
+TEST_F(SweepExecution, ATableIsReadAsFarAsItIsAskedFor) {
+  const std::vector<Varied> keys{{"outlet.resistance", "dyn s/cm5"}};
+  const std::vector<NumberColumn> numbers{{"pressure.max", "dyn/cm2"},
+                                          {"von_mises.max", "dyn/cm2"},
+                                          {"d(pressure.max)/d(outlet.resistance)", "cm3/s"}};
+  fs::create_directories(path("of rows"));
+  Table table(path("of rows") / database_file, Table::Mode::create, keys, numbers);
+  for (const std::uint64_t point : {7U, 3U})
+    table.insert({point, "done", "", "prompt", 0.5, {"1e6"}, {1.5, observables::none, 2.5}});
+  for (std::size_t first = 0; first <= numbers.size(); ++first) {
+    std::vector<std::uint64_t> points;
+    table.each(
+        [&](const Row& row) {
+          points.push_back(row.point);
+          ASSERT_EQ(row.numbers.size(), first);
+          EXPECT_EQ(row.tier, "prompt");
+          EXPECT_EQ(row.keys.size(), 1U);
+          if (first > 0) {
+            EXPECT_EQ(row.numbers[0], 1.5);
+          }
+          if (first > 1) {
+            EXPECT_TRUE(observables::is_none(row.numbers[1]));
+          }
+          if (first > 2) {
+            EXPECT_EQ(row.numbers[2], 2.5);
+          }
+        },
+        first);
+    EXPECT_EQ(points, (std::vector<std::uint64_t>{3, 7}));
+  }
+}
+
 TEST_F(SweepExecution, RefusedPointsAtTheBeginningDoNotRefuseTheSweep) {
   TierList tiers;
   tiers.push_back(std::make_unique<PromptTier>());

@@ -218,8 +218,14 @@ double Table::seconds() const {
   return query.number(0);
 }
 
-void Table::each(const std::function<void(const Row&)>& use) const {
-  Query query(database_->handle, "SELECT * FROM sweep ORDER BY point",
+void Table::each(const std::function<void(const Row&)>& use, std::size_t numbers) const {
+  // The row is read as far as its last column that is asked for.
+  std::string columns;
+  for (const char* column : fixed_columns) columns += quoted(column) + ',';
+  for (const Varied& key : keys_) columns += quoted(key_head(key)) + ',';
+  for (std::size_t k = 0; k < numbers; ++k) columns += quoted(numbers_[k].head()) + ',';
+  columns.pop_back();
+  Query query(database_->handle, fmt::format("SELECT {} FROM sweep ORDER BY point", columns),
               [this](int code) { database_->fail(code); });
   Row row;
   while (query.next()) {
@@ -235,7 +241,7 @@ void Table::each(const std::function<void(const Row&)>& use) const {
       ++column;
     }
     row.numbers.clear();
-    for (std::size_t k = 0; k < numbers_.size(); ++k) row.numbers.push_back(query.number(column++));
+    for (std::size_t k = 0; k < numbers; ++k) row.numbers.push_back(query.number(column++));
     use(row);
   }
 }

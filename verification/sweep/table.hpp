@@ -35,7 +35,9 @@ class Table {
   /// Numbers of the points that have a row, ascending.
   std::vector<std::uint64_t> points() const;
   /// Hands over all rows in the order of points.
-  void each(const std::function<void(const Row&)>& use) const;
+  void each(const std::function<void(const Row&)>& use) const { each(use, numbers_.size()); }
+  /// The same with no more than the first of their numbers, such as quantities without gradients.
+  void each(const std::function<void(const Row&)>& use, std::size_t numbers) const;
   std::uint64_t count(const std::string& status) const;
   double seconds() const;  ///< of all rows together
   /// Adds the rows of another table of the same columns, all or none.
