@@ -20,6 +20,7 @@
 #include "core/threads.hpp"
 #include "verification/sweep/campaign.hpp"
 #include "verification/sweep/index_table.hpp"
+#include "verification/sweep/surrogate_table.hpp"
 #include "verification/uncertainty/surrogate.hpp"
 
 namespace tunica {
@@ -42,13 +43,15 @@ void tell_of_surrogates(const sweep::IndexSummary& indices) {
 /// indices.csv of a whole sweep that is for them; the widest interval.
 double make_indices(sweep::SweepSummary& summary, const fs::path& folder, bool quiet) {
   if (summary.interrupted || summary.done == 0) return 0;
+  if (!quiet && sweep::makes_surrogates(sweep::read_campaign(folder)))
+    spdlog::info("making surrogates of {} points", summary.done);
   const sweep::IndexSummary indices = sweep::write_indices(folder, stop_asked);
   if (indices.interrupted) {
     summary.interrupted = true;
     return 0;
   }
   if (quiet) return indices.widest;
-  if (indices.points > 0) {
+  if (indices.groups == 0) {
     tell_of_surrogates(indices);
     return indices.widest;
   }

@@ -235,6 +235,8 @@ TEST_F(SweepSurrogates, RefuseWhatMakesNoSense) {
   write_whole(path("other.csv"), "outlet.resistance,wall.activation_stretch\n1e6,1.5\n");
   for (const auto& [more, why] : std::vector<std::pair<Texts, std::string>>{
            {{"--sample", "sobol:8", "--indices", "--surrogate"}, "needs 16 points"},
+           // Of a dear tier without being asked.
+           {{"--tier", "axisym", "--sample", "sobol:8", "--indices"}, "needs 16 points"},
            {{"--sample", "sobol:32", "--surrogate"}, "--indices"},
            {{"--points", path("outside.csv"), "--indices"},
             "outlet.resistance = 3000000 of point 1 is outside"},

@@ -16,9 +16,9 @@ inline constexpr const char* indices_file = "indices.csv";
 /// What the indices of a sweep come to.
 struct IndexSummary {
   double widest = 0;         ///< of all intervals; 0 where no quantity varies
-  std::uint64_t groups = 0;  ///< of a pick-freeze sample; the points of one count together
+  std::uint64_t groups = 0;  ///< of a pick-freeze sample; the points of one count together; else 0
   std::uint64_t lost = 0;    ///< of them, or of the points, those without all results
-  std::uint64_t points = 0;  ///< that surrogates are made of; 0 without surrogates
+  std::uint64_t points = 0;  ///< of the dearest tier that surrogates are made of
   /// Quantities whose surrogate misses much, or that have none, with the reason; one line each.
   std::vector<std::string> poor = {};
   bool interrupted = false;  ///< while surrogates were made: nothing is written
