@@ -13,7 +13,7 @@ namespace tunica::axisym {
 namespace {
 
 constexpr double relative_step = 1e-6;
-/// Of a key that is 0, in its unit: those are of terms that are linear in it, as are pressures and resistances.
+/// Of a key that is 0, in its unit: terms are linear in such keys, as in pressures and resistances.
 constexpr double step_from_zero = 1e-2;
 
 std::unique_ptr<Setup> like(const Assembler& of, std::unique_ptr<Setup> setup) {

@@ -11,9 +11,9 @@
 
 namespace tunica::axisym {
 
-/// How a vessel depends on a key of its scene, by differences between the vessels of values beside it (on both
-/// sides where both are allowed) with a relative step of 1e-6: 1e-12 of the third derivative, and the 1e-10
-/// that rounding leaves of the terms of an equation. Nodes move with the geometry, cells stay the same.
+/// How a vessel depends on a key of its scene, by differences between the vessels of values beside it (on
+/// both sides where both are allowed) with a relative step of 1e-6: 1e-12 of the third derivative, and the
+/// 1e-10 that rounding leaves of the terms of an equation. Nodes move with the geometry, cells stay the same.
 class KeyDerivative final : public coupled::KeyDerivative {
  public:
   /// `of` has the equations, of the scene, that are differentiated.

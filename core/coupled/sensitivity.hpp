@@ -40,11 +40,11 @@ class KeyedEquations {
                       std::span<std::vector<double>> rows) const = 0;
 };
 
-/// Derivatives s = dy/dkey of a vessel's states along a run: the discrete equations of each step, differentiated
-/// with the steps held. With the step's own equations F(y, c y + history, key) = 0,
+/// Derivatives s = dy/dkey of a vessel's states along a run: the discrete equations of each step,
+/// differentiated with the steps held. With the step's own equations F(y, c y + history, key) = 0,
 ///   (F_y + c F_r) s = -F_key - F_r history_s,
-/// where history_s is what the same time scheme makes of the s before, and the derivative on the left is that
-/// of the step at its solution, whose factors the next step begins with. Where the mesh lags, what is expected
+/// where history_s is what the same time scheme makes of the s before, and the derivative on the left is
+/// that of the step at its solution, whose factors the next step begins with. Where the mesh lags, what is expected
 /// of it has a derivative, too.
 class Sensitivities final : public StepCompanion {
  public:

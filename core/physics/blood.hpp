@@ -73,8 +73,8 @@ Vector<S> pressure_stabilisation(const S& time, const BloodState<S>& state, cons
 }
 
 /// tau/rho of pressure_stabilisation, s cm3/g: 1 / sqrt((2 rho c)^2 + (2 rho |v|/h)^2 + (12 mu/h^2)^2) for
-/// the rate coefficient c (1/s) of the time scheme, |v|^2 and a cell of size h (cm). 0 where nothing limits it:
-/// steady blood at rest without viscosity.
+/// the rate coefficient c (1/s) of the time scheme, |v|^2 and a cell of size h (cm). 0 where nothing limits
+/// it: steady blood at rest without viscosity.
 template <class S>
 S stabilisation_time(const Blood& blood, double rate_coefficient, const S& square_of_speed, double size) {
   using std::sqrt;

@@ -55,8 +55,8 @@ struct Case {
 
 class AxisymSensitivities : public testing::TestWithParam<Case> {};
 
-// A wall without fibres is smooth in all of its keys. Differences with a relative step of 1e-4 leave out 1e-8
-// of the third derivative, and what the runs' own errors of some 1e-10 leave is a little more than 1e-6 of the
+// A wall without fibres is smooth in all of its keys. Differences with a relative step of 1e-4 leave out
+// 1e-8 of the third derivative, and what the runs' own errors of some 1e-10 leave is a little more than 1e-6 of the
 // columns that hardly depend on a key: 1e-5 of a column's largest magnitude is allowed.
 TEST_P(AxisymSensitivities, AgreeWithCentralDifferences) {
   const Overrides overrides = coarse(joined({"wall.law=EXP1"}, GetParam().overrides));
@@ -114,8 +114,8 @@ INSTANTIATE_TEST_SUITE_P(
                          {"wall.layers[1].bulk_modulus"}}),
     [](const auto& instance) { return std::string(instance.param.name); });
 
-// A fraction counts relative to the sum: one of two, f and 1 - f, that is varied by itself moves their boundary
-// as much as both do when f + (1 - f) df takes the place of f.
+// A fraction counts relative to the sum: one of two, f and 1 - f, that is varied by itself moves their
+// boundary as much as both do when f + (1 - f) df takes the place of f.
 TEST(AxisymSensitivityOfFractions, IsRelativeToTheirSum) {
   const auto layers = [](double first) {
     return fmt::format(
