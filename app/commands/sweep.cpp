@@ -36,8 +36,10 @@ void tell_of_surrogates(const sweep::IndexSummary& indices) {
   if (indices.poor.size() > most_told)
     spdlog::warn("and {} more quantities without a good surrogate; sweep.json has the reasons",
                  indices.poor.size() - most_told);
-  spdlog::info("Sobol' indices by surrogates of {} points: the widest 95 % interval is {:.3g}",
-               indices.points, indices.widest);
+  spdlog::info("Sobol' indices by surrogates of {} points: {}", indices.points,
+               std::isfinite(indices.widest)
+                   ? fmt::format("the widest 95 % interval is {:.3g}", indices.widest)
+                   : "some quantities have none");
 }
 
 /// indices.csv of a whole sweep that is for them; the widest interval.

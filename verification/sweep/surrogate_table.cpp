@@ -140,7 +140,8 @@ Finding find(const Sample& sample, std::size_t quantity) {
     finding.told["q2"] = found.q2;
     finding.told["points"] = found.residuals.size();
     if (found.q2 < good)
-      finding.poor = fmt::format("its surrogate misses {:.0f} % of the variance", 100 * (1 - found.q2));
+      finding.poor =
+          fmt::format("its surrogate misses {:.0f} % of the variance", 100 * std::min(1.0, 1 - found.q2));
   }
   if (!finding.poor.empty()) finding.told["reason"] = finding.poor;
   if (!found.surrogate || found.q2 < useless) return finding;
