@@ -44,8 +44,8 @@ class KeyedEquations {
 /// differentiated with the steps held. With the step's own equations F(y, c y + history, key) = 0,
 ///   (F_y + c F_r) s = -F_key - F_r history_s,
 /// where history_s is what the same time scheme makes of the s before, and the derivative on the left is
-/// that of the step at its solution, whose factors the next step begins with. Where the mesh lags, what is expected
-/// of it has a derivative, too.
+/// that of the step at its solution, whose factors the next step begins with. Where the mesh lags, what is
+/// expected of it has a derivative, too.
 class Sensitivities final : public StepCompanion {
  public:
   /// The equations must outlive it. `options` of the simulation that it goes along with.
