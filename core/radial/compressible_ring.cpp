@@ -203,7 +203,7 @@ bool CompressibleRing::newton(const Ring<double>& ring, Solution& solution) cons
     // volume change depends on.
     double largest = 0;
     for (const double w : solution.nodal) largest = std::max(largest, std::abs(w));
-    const double negligible = 1e-1 * options_.accuracy * largest;
+    const double negligible = options_.left_by_newton * largest;
     const auto is_small = [&] { return size * size <= negligible * previous_update; };
     if (iteration >= full_steps) {
       const auto squared = [](std::span<const double> r) {
@@ -411,13 +411,19 @@ WallState<S> CompressibleRing::state(const Ring<P>& ring, const Solution& soluti
 RingResponse CompressibleRing::respond(LumenStretch lumen_stretch, std::span<const double> places,
                                        bool derivatives) const {
   using D = Dual<double, 1>;
-  const Solution solution = solve(lumen_stretch);
+  Solution solution = solve(lumen_stretch);
   System system;
   assemble(merged_, solution, system);
   const std::size_t free = system.residual.size();
   if (!system.tangent.factorise())
     throw SolverFailure(
         fmt::format("the wall's equilibrium is singular at lumen stretch {:.6g}", lumen_stretch.value()));
+  // The equations are linearised for the response, so that a last step of Newton's method is for nothing.
+  std::vector<double> last(free);
+  for (std::size_t k = 0; k < free; ++k) last[k] = -system.residual[k];
+  system.tangent.solve(last);
+  for (std::size_t k = 0; k < free; ++k) solution.nodal[k + 1] += last[k];
+  system.pressure += system.pressure_along(0.0, last);
   const auto nodal_along = [&](std::span<const double> change) {
     std::vector<D> nodal(solution.nodal.begin(), solution.nodal.end());
     for (std::size_t k = 0; k < free; ++k) nodal[k + 1].derivative[0] = change[k];

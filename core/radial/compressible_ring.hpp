@@ -21,9 +21,11 @@ namespace tunica::radial {
 class CompressibleRing final : public RingModel {
  public:
   struct Options {
-    int degree = 10;            ///< of each element
-    int points = 12;            ///< of its Gauss rule
-    double accuracy = 1e-10;    ///< relative, of the responses: how far Newton's method goes
+    int degree = 10;          ///< of each element
+    int points = 12;          ///< of its Gauss rule
+    double accuracy = 1e-10;  ///< relative, of the responses
+    /// Relative error of w that Newton's method may leave for the last step, which a response makes itself.
+    double left_by_newton = 1e-11;
     double kink = finest_kink;  ///< how closely elements end at fronts
   };
 

@@ -25,7 +25,12 @@ TetherTraction traction_from(const std::string& name) {
 CompressibleRing::Options options_for(double accuracy) {
   if (accuracy < 1e-8) return {};
   const int degree = accuracy < 1e-6 ? 8 : 5;
-  return {.degree = degree, .points = degree + 1, .accuracy = accuracy, .kink = 0.1 * std::sqrt(accuracy)};
+  // The last step takes an error to its square; w is itself a small part of the motion.
+  return {.degree = degree,
+          .points = degree + 1,
+          .accuracy = accuracy,
+          .left_by_newton = 0.1 * std::sqrt(accuracy),
+          .kink = 0.1 * std::sqrt(accuracy)};
 }
 
 }  // namespace
