@@ -22,19 +22,27 @@ struct LiftMatrix {
 template <class Frame, int Width>
 void add_block(double weight, const LiftMatrix<Frame>& coefficients, const Lifted<Frame, Width>& test,
                const Lifted<Frame, Width>& trial, Block<Width>& block) {
+  // Most terms have few of the lifts: only rows that are not zero are kept.
   double row[Frame::lifts][Width];
+  const double* lift[Frame::lifts];
+  int rows = 0;
   for (int a = 0; a < Frame::lifts; ++a) {
-    for (int l = 0; l < Width; ++l) row[a][l] = 0;
+    bool is_zero = true;
     for (int b = 0; b < Frame::lifts; ++b) {
       const double factor = weight * coefficients.entry[a][b];
       if (factor == 0) continue;
-      for (int l = 0; l < Width; ++l) row[a][l] += factor * trial.lift[b][l];
+      if (is_zero)
+        for (int l = 0; l < Width; ++l) row[rows][l] = factor * trial.lift[b][l];
+      else
+        for (int l = 0; l < Width; ++l) row[rows][l] += factor * trial.lift[b][l];
+      is_zero = false;
     }
+    if (!is_zero) lift[rows++] = test.lift[a];
   }
   for (int k = 0; k < Width; ++k) {
     double* const out = block.entry[k];
-    for (int a = 0; a < Frame::lifts; ++a) {
-      const double t = test.lift[a][k];
+    for (int a = 0; a < rows; ++a) {
+      const double t = lift[a][k];
       for (int l = 0; l < Width; ++l) out[l] += t * row[a][l];
     }
   }
