@@ -352,8 +352,9 @@ std::string Assembler::compression(const LeastJacobian& least) const {
   if (!blood) return text;
   if (beside_clamped_end(problem_, mesh.points[centre]))
     return text + ", beside a clamped end; geometry.ends = \"sliding\" bears more";
-  const bool is_harmonic = !problem_.discretisation.stiffened_mesh && !problem_.discretisation.sectional_mesh;
-  return is_harmonic ? text + "; mesh.motion = \"stiffened\" may bear more" : text;
+  return problem_.discretisation.motion == coupled::MeshMotion::harmonic
+             ? text + "; mesh.motion = \"stiffened\" may bear more"
+             : text;
 }
 
 }  // namespace tunica::axisym

@@ -100,9 +100,7 @@ class AxisymVessel final : public coupled::Vessel {
 }  // namespace
 
 std::string AxisymTier::refusal(const Scene& scene) const {
-  const bool has_sections = scene.text("geometry.kind") != "mesh" && scene.text("mesh.element") != "bubble" &&
-                            scene.text("mesh.cell") == "quadrilateral";
-  if (scene.text("mesh.motion") == "sectional" && !has_sections)
+  if (scene.has("mesh.motion") && scene.text("mesh.motion") == "sectional" && !has_sections(scene))
     return "mesh.motion = \"sectional\" needs the sections of own quadrilaterals; use \"harmonic\" or "
            "\"stiffened\"";
   if (scene.text("geometry.kind") == "torus")

@@ -60,6 +60,11 @@ Resolution resolution(const Scene& scene) {
   return r;
 }
 
+bool has_sections(const Scene& scene) {
+  return scene.text("geometry.kind") != "mesh" && scene.text("mesh.element") != "bubble" &&
+         scene.text("mesh.cell") == "quadrilateral";
+}
+
 Mesh mesh_of(const Scene& scene, const Resolution& resolution, bool with_blood) {
   if (scene.text("geometry.kind") == "mesh") {
     const auto file = scene.folder() / scene.text("geometry.file");

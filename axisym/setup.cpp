@@ -121,8 +121,8 @@ std::unique_ptr<Setup> conditions_of(const Scene& scene, const Resolution& resol
   require_balance(problem.laws);
   setup->wall_density = problem.wall_density;
   set_ends(scene, problem);
-  problem.discretisation.sectional_mesh =
-      scene.text("mesh.motion") == "sectional" && problem.mesh.has(Part::blood);
+  problem.discretisation.motion =
+      coupled::mesh_motion_of(scene, problem.mesh.has(Part::blood) && has_sections(scene));
 
   const Extent ends = extent(problem.mesh);
   setup->lumen_radius = section_at(problem.mesh, 0.5 * (ends.inlet + ends.outlet)).inner;

@@ -102,7 +102,7 @@ std::string Assembler::compression(const LeastJacobian& least) const {
       blood ? "blood's mesh" : "wall",
       least.value > 0 ? fmt::format("compressed to J = {:.2g}", least.value) : "turned inside out", x[0],
       x[1], x[2], least.cell, mesh.cells.size());
-  if (!blood || problem_.discretisation.stiffened_mesh) return text;
+  if (!blood || problem_.discretisation.motion != coupled::MeshMotion::harmonic) return text;
   return text + "; mesh.motion = \"stiffened\" may bear more";
 }
 

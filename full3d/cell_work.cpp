@@ -390,7 +390,8 @@ class Work final : public CellWork {
   kernel::BloodParameters blood_parameters(const Points& points, const Stage& stage) const {
     kernel::BloodParameters parameters{problem_.blood, stage.coefficient, 1.0, 0.0};
     const double size = tables_.size(points);
-    if (problem_.discretisation.stiffened_mesh) parameters.mesh_stiffness = 1 / (size * size);
+    if (problem_.discretisation.motion == coupled::MeshMotion::stiffened)
+      parameters.mesh_stiffness = 1 / (size * size);
     if (problem_.discretisation.element == Element::linear) parameters.stabilised_size = size;
     return parameters;
   }

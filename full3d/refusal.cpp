@@ -6,7 +6,7 @@
 namespace tunica::full3d {
 
 std::string refusal(const Scene& scene) {
-  if (scene.text("mesh.motion") == "sectional")
+  if (scene.has("mesh.motion") && scene.text("mesh.motion") == "sectional")
     return "mesh.motion = \"sectional\" is for the 2D tier; use \"harmonic\" or \"stiffened\"";
   if (scene.text("geometry.kind") == "mesh") {
     const int dimensions = element::gmsh_dimensions(scene.folder() / scene.text("geometry.file"));

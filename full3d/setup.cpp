@@ -207,6 +207,7 @@ std::unique_ptr<Setup> setup_of(const Scene& scene, const Resolution& resolution
   }
   const bool with_blood = problem.mesh.has(Part::blood);
   coupled::set_conditions(scene, *setup, problem);
+  problem.discretisation.motion = coupled::mesh_motion_of(scene, false);
   coupled::check_layers(problem.mesh.layers(), problem.laws.size());
   if (setup->axes) check_fibers(problem);
   problem.copies = setup->sector == Sector::quarter ? 4 : setup->sector == Sector::half ? 2 : 1;

@@ -50,6 +50,8 @@ void find_levels(SweepKey& key, const Json& parameter, const std::vector<double>
     return;
   }
   std::vector<double> sorted = values;
+  std::erase_if(sorted, is_none);
+  if (sorted.empty()) return;
   std::sort(sorted.begin(), sorted.end());
   key.lowest = sorted.front();
   key.highest = sorted.back();
@@ -173,7 +175,7 @@ SweepTable read_sweep(const std::filesystem::path& folder) {
         for (std::size_t k = 0; k < table.keys.size(); ++k) {
           SweepKey& key = table.keys[k];
           if (!stored.keys()[k].unit.empty()) {
-            table.key_values[k].push_back(std::stod(row.keys[k]) * key.factor);
+            table.key_values[k].push_back(row.keys[k].empty() ? none : std::stod(row.keys[k]) * key.factor);
             continue;
           }
           table.key_values[k].push_back(static_cast<double>(text_level(key.texts, row.keys[k])));
@@ -214,8 +216,9 @@ sweep::Row read_point(const std::filesystem::path& folder, std::uint64_t point) 
 LevelSpread spread(const SweepTable& table, std::size_t key, std::size_t quantity) {
   std::vector<std::vector<double>> groups(table.keys[key].places.size());
   for (std::size_t row = 0; row < table.numbers.size(); ++row)
-    if (const double value = table.values[quantity][row]; !is_none(value))
-      groups[table.keys[key].level(table.key_values[key][row])].push_back(value);
+    if (const double value = table.values[quantity][row], at = table.key_values[key][row];
+        !is_none(value) && !is_none(at))
+      groups[table.keys[key].level(at)].push_back(value);
   LevelSpread found;
   for (auto& group : groups) {
     std::sort(group.begin(), group.end());
@@ -236,9 +239,9 @@ std::vector<double> cell_means(const SweepTable& table, std::size_t first, std::
   std::vector<double> sums(table.keys[first].places.size() * width, 0), counts(sums.size(), 0);
   for (std::size_t row = 0; row < table.numbers.size(); ++row) {
     const double value = table.values[quantity][row];
-    if (is_none(value)) continue;
-    const std::size_t cell = table.keys[first].level(table.key_values[first][row]) * width +
-                             table.keys[second].level(table.key_values[second][row]);
+    const double at = table.key_values[first][row], beside = table.key_values[second][row];
+    if (is_none(value) || is_none(at) || is_none(beside)) continue;
+    const std::size_t cell = table.keys[first].level(at) * width + table.keys[second].level(beside);
     sums[cell] += value;
     ++counts[cell];
   }

@@ -20,20 +20,22 @@ namespace tunica::coupled {
 ///   bubble     the paper's: velocity linear with a bubble, all else linear; triangles and tetrahedra only.
 enum class Element { quadratic, linear, bubble };
 
+/// How the mesh in the blood follows the wall.
+enum class MeshMotion {
+  harmonic,   ///< as a harmonic field (the paper's)
+  stiffened,  ///< so, with small cells stiffer by the inverse square of their size
+  sectional   ///< section by section, as known shares of the wall's displacement (LayoutSpec::shares)
+};
+
 struct Discretisation {
   Element element = Element::quadratic;
   /// Interpolate the wall pressure on its own, so that nearly incompressible tissue does not lock. Laws far
   /// from incompressible, and the bubble element, use the law's own stress.
   bool mixed_wall = true;
-  /// Make small cells of the blood's mesh stiffer (by the inverse square of their size), which keeps them
-  /// from inverting under large motion of the wall.
-  bool stiffened_mesh = false;
+  MeshMotion motion = MeshMotion::harmonic;
   /// The mesh in the blood is where the steps before lead to expect it (Stage::mesh), and none of the
   /// unknowns: it follows the wall after the step.
   bool lagged_mesh = false;
-  /// The mesh in the blood moves with the wall section by section, as known shares of its displacement
-  /// (LayoutSpec::shares); its nodes must lie in sections.
-  bool sectional_mesh = false;
 };
 
 /// True for tissue whose pressure cells interpolate on their own (those of the bubble element never do).

@@ -44,7 +44,8 @@ void Layout::number(const LayoutSpec& spec) {
     const std::size_t entry = displacement(share.node, share.component);
     unknown_[entry] = -1;
     shared_index_[entry] = static_cast<int>(shared_.size());
-    shared_.push_back({entry, displacement(share.of, share.component), share.share});
+    shared_.push_back(
+        {entry, displacement(share.of, share.component), displacement(share.of, 0), share.share, share.lean});
   }
 
   for (const auto& fixed : spec.fixed) {
@@ -78,16 +79,17 @@ void Layout::number(const LayoutSpec& spec) {
 }
 
 void Layout::share_out(std::span<double> y) const {
-  for (const SharedEntry& shared : shared_) y[shared.entry] = shared.share * y[shared.of];
+  for (const SharedEntry& shared : shared_)
+    y[shared.entry] = shared.share * y[shared.of] + shared.lean * y[shared.first];
 }
 
 Layout::Column Layout::column(std::size_t entry) const {
   const int index = entry < shared_index_.size() ? shared_index_[entry] : -1;
-  if (index < 0) return {unknown_[entry], 1};
+  if (index < 0) return {unknown_[entry], 1, 0};
   const SharedEntry& shared = shared_[index];
-  // Where the mesh is given within a step, and on the axis, nothing depends on the wall.
-  if (mesh_follows_ || shared.share == 0) return {-1, 0};
-  return {unknown_[shared.of], shared.share};
+  // Where the mesh is given within a step nothing depends on the wall.
+  if (mesh_follows_) return {-1, 0, 0};
+  return {unknown_[shared.of], shared.share, shared.lean};
 }
 
 int Layout::node_of(std::size_t entry) const {

@@ -16,12 +16,14 @@ struct LayoutSpec {
   std::vector<bool> has_pressure;
   bool inlet_pressure = false, outlet_pressure = false, windkessel_pressure = false;
   bool mesh_follows = false;  ///< the displacement off the wall is no unknown
-  /// A displacement in the blood that is a fixed share of that of a node on the wall, in the same component.
+  /// A displacement in the blood that follows from that of a node on the wall: `share` times it in the same
+  /// component, and `lean` times it in the first. All components of the node follow the same one on the wall.
   struct Share {
     int node;
     int component;
-    int of;        ///< node on the wall
-    double share;  ///< displacement of the one over that of the other
+    int of;  ///< node on the wall
+    double share;
+    double lean = 0;
   };
   std::vector<Share> shares;
   /// Values that are prescribed, if they are unknowns at all; later ones that repeat earlier ones are
@@ -75,11 +77,13 @@ class Layout {
   /// Sets the entries of y, or of its rate or derivative, that are shares of others (LayoutSpec::shares).
   void share_out(std::span<double> y) const;
 
-  /// What an entry's column of a derivative adds to: `share` times the column of `unknown`, -1 for none. An
-  /// unknown's own is itself, once; a share of an unknown is that of its unknown.
+  /// What an entry's column of a derivative adds to: `share` times the column of `unknown`, -1 for none, and
+  /// `lean` times that of the first component of the same node. An unknown's own is itself, once; a share of
+  /// an unknown is that of its unknown.
   struct Column {
     int unknown;
     double share;
+    double lean;
   };
   Column column(std::size_t entry) const;
 
@@ -112,8 +116,8 @@ class Layout {
   std::vector<int> pressure_index_, unknown_;
   std::vector<std::size_t> entries_, followers_;
   struct SharedEntry {
-    std::size_t entry, of;
-    double share;
+    std::size_t entry, of, first;
+    double share, lean;
   };
   std::vector<SharedEntry> shared_;
   std::vector<int> shared_index_;  ///< by entry of the displacement, -1 for none; empty without shares

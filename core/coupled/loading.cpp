@@ -31,6 +31,14 @@ Element element_of(const Scene& scene) {
   return Element::quadratic;
 }
 
+MeshMotion mesh_motion_of(const Scene& scene, bool has_sections) {
+  if (!scene.has("mesh.motion")) return has_sections ? MeshMotion::sectional : MeshMotion::harmonic;
+  const std::string& motion = scene.text("mesh.motion");
+  return motion == "sectional"   ? MeshMotion::sectional
+         : motion == "stiffened" ? MeshMotion::stiffened
+                                 : MeshMotion::harmonic;
+}
+
 bool lags_mesh(const Scene& scene, bool with_blood, bool with_wall) {
   return scene.text("solver.geometry") == "lagged" && scene.text("time.mode") != "static" && with_blood &&
          with_wall;
@@ -105,8 +113,7 @@ void estimate_sizes(const Scene& scene, std::unique_ptr<const radial::RingModel>
 
 template <int dimension>
 void set_conditions(const Scene& scene, const Loading& loading, Conditions<dimension>& conditions) {
-  conditions.discretisation = {element_of(scene), scene.flag("mesh.mixed_wall"),
-                               scene.text("mesh.motion") == "stiffened"};
+  conditions.discretisation = {element_of(scene), scene.flag("mesh.mixed_wall")};
   conditions.blood = {scene.number("blood.density"), scene.number("blood.viscosity")};
   for (const auto& layer : wall::wall_from_scene(SeededScene<double>(scene)))
     conditions.laws.push_back(layer.law);

@@ -66,6 +66,9 @@ bool needs_blood(const Scene& scene, const Loading& loading);
 
 Element element_of(const Scene& scene);
 
+/// How the mesh in the blood moves: as the scene says, else section by section where it has sections.
+MeshMotion mesh_motion_of(const Scene& scene, bool has_sections);
+
 /// Steps in time take the mesh in the blood from the steps before (Discretisation::lagged_mesh), for a vessel
 /// with such parts.
 bool lags_mesh(const Scene& scene, bool with_blood, bool with_wall);

@@ -16,7 +16,7 @@ template <class Frame, int Width>
 struct Numbers {
   static constexpr int n = Frame::components;
   std::array<std::array<int, Width>, n> momentum, mesh, velocity, displacement;
-  std::array<std::array<double, Width>, n> share;  ///< of its unknown that a displacement is (Layout::column)
+  std::array<std::array<double, Width>, n> share, lean;  ///< of displacements (Layout::column)
   std::array<int, Width> continuity, pressure;
   std::array<bool, Width> adheres;  ///< the velocity is the rate of the displacement
 
@@ -24,6 +24,7 @@ struct Numbers {
     for (auto* list : {&momentum, &mesh, &velocity, &displacement})
       for (auto& component : *list) component.fill(-1);
     for (auto& component : share) component.fill(1.0);
+    for (auto& component : lean) component.fill(0.0);
     continuity.fill(-1);
     pressure.fill(-1);
     adheres.fill(false);
@@ -41,6 +42,7 @@ void number_displacement(const Layout& layout, std::span<const int> nodes, Numbe
       const Layout::Column column = layout.column(entry);
       numbers.displacement[c][k] = column.unknown;
       numbers.share[c][k] = column.share;
+      numbers.lean[c][k] = column.lean;
       (layout.on_wall(nodes[k]) ? numbers.momentum : numbers.mesh)[c][k] = unknown;
     }
 }
@@ -90,6 +92,7 @@ Numbers<Frame, Width> side_numbers(const Layout& layout, std::span<const int> si
       const Layout::Column column = layout.column(layout.displacement(node, c));
       numbers.displacement[c][k] = column.unknown;
       numbers.share[c][k] = column.share;
+      numbers.lean[c][k] = column.lean;
       numbers.velocity[c][k] =
           numbers.adheres[k] ? numbers.displacement[c][k] : layout.unknown(layout.velocity(node, c));
       numbers.momentum[c][k] = numbers.velocity[c][k];
@@ -100,10 +103,21 @@ Numbers<Frame, Width> side_numbers(const Layout& layout, std::span<const int> si
 
 namespace detail {
 
-template <class Shares, int Width>
-void scale_columns(const Shares& shares, kernel::Block<Width>& block) {
-  for (int k = 0; k < Width; ++k)
-    for (int l = 0; l < Width; ++l) block.entry[k][l] *= shares[l];
+/// Of the columns of one component and of the first, by displacements.
+template <std::size_t Width>
+void share_values(const std::array<double, Width>& shares, const std::array<double, Width>& leans,
+                  double (&values)[Width], double (*first)[Width]) {
+  for (std::size_t l = 0; l < Width; ++l) {
+    if (first) (*first)[l] += leans[l] * values[l];
+    values[l] *= shares[l];
+  }
+}
+
+template <class Frame, int Width>
+void share_blocks(const Numbers<Frame, Width>& n, auto& blocks) {
+  for (int b = 0; b < Frame::components; ++b)
+    for (int k = 0; k < Width; ++k)
+      share_values(n.share[b], n.lean[b], blocks[b].entry[k], b > 0 ? &blocks[0].entry[k] : nullptr);
 }
 
 }  // namespace detail
@@ -111,19 +125,15 @@ void scale_columns(const Shares& shares, kernel::Block<Width>& block) {
 /// Makes derivatives by displacements those by the unknowns that these are shares of.
 template <class Frame, int Width>
 void share_columns(const Numbers<Frame, Width>& n, kernel::BloodTangent<Frame, Width>& t) {
-  for (int b = 0; b < Frame::components; ++b) {
-    for (int a = 0; a < Frame::components; ++a)
-      detail::scale_columns(n.share[b], t.momentum_displacement[a][b]);
-    detail::scale_columns(n.share[b], t.continuity_displacement[0][b]);
-  }
+  for (int a = 0; a < Frame::components; ++a) detail::share_blocks(n, t.momentum_displacement[a]);
+  detail::share_blocks(n, t.continuity_displacement[0]);
 }
 template <class Frame, int Width>
 void share_columns(const Numbers<Frame, Width>& n, kernel::SideTangent<Frame, Width>& t) {
-  for (int b = 0; b < Frame::components; ++b) {
-    for (int a = 0; a < Frame::components; ++a)
-      detail::scale_columns(n.share[b], t.momentum_displacement[a][b]);
-    for (int k = 0; k < Width; ++k) t.flow_displacement.value[b][k] *= n.share[b][k];
-  }
+  for (int a = 0; a < Frame::components; ++a) detail::share_blocks(n, t.momentum_displacement[a]);
+  auto& flow = t.flow_displacement.value;
+  for (int b = 0; b < Frame::components; ++b)
+    detail::share_values(n.share[b], n.lean[b], flow[b], b > 0 ? &flow[0] : nullptr);
 }
 
 /// Visits every block of a tangent: visit(rows, columns, of a velocity, block).

@@ -306,10 +306,16 @@ std::vector<Parameter> declare() {
        "Interpolate the pressure in the wall on its own, so that nearly incompressible tissue does not lock "
        "(2D and 3D tiers)."});
   all.push_back(
-      choice("mesh.motion", "harmonic", {"harmonic", "sectional", "stiffened"},
-             "How the mesh in the blood follows the wall: harmonic, section by section, each point keeping "
-             "its share of the way to the wall, which bears larger motion (2D tier, quadrilaterals), "
-             "or harmonic with small cells made stiffer."));
+      {"mesh.motion",
+       Kind::choice,
+       "",
+       {},
+       "sectional for own quadrilaterals in 2D, else harmonic",
+       {},
+       {"harmonic", "sectional", "stiffened"},
+       "How the mesh in the blood follows the wall: harmonic, section by section, each point keeping "
+       "its share of the way to the wall, which bears larger motion (2D tier, quadrilaterals), "
+       "or harmonic with small cells made stiffer."});
 
   all.push_back(
       choice("solver.method", "auto", {"auto", "direct", "schwarz", "block"},

@@ -286,7 +286,7 @@ INSTANTIATE_TEST_SUITE_P(
               {"at t = 0.", "(beat 1)", "r = ", "z = ", "cell", "as a ring it carries at most 14.7"}},
         Fault{"balloon_in_long_steps",
               {"wall.law=neo-Hookean", nothing_holds, "time.step=0.05"},
-              {"at t = 0.2", "(beat 1)", "r = ", "z = ", "cell", "as a ring it carries at most 14.7"}},
+              {"at t = 0.", "(beat 1)", "r = ", "z = ", "cell", "as a ring it carries at most 14.7"}},
         Fault{"static_balloon",
               {"wall.law=neo-Hookean", nothing_holds, "time.mode=static", "inlet.waveform=pressure"},
               {"in the static state", "no static equilibrium was found beyond", "% of the load",
@@ -308,11 +308,11 @@ INSTANTIATE_TEST_SUITE_P(
               {"outlet.resistance=2e7", "tether.stiffness=1e5", "wall.law=EXP1", "geometry.ends=sliding",
                "inlet.profile=natural"},
               {"at t = 0.", "r = ", "z = ", "cell"}},
-        Fault{"pressure_that_comes_at_once",
-              {"time.ramp=0", "inlet.waveform=pressure", "inlet.pressure=100 mmHg",
-               "inlet.pressure_kind=static"},
-              {"at t = ", "(beat 1)", "the wall is ", "r = ", "z = ", "cell",
-               "with time.ramp = 0 s the load comes as a blow"}},
+        Fault{
+            "pressure_that_comes_at_once",
+            {"time.ramp=0", "inlet.waveform=pressure", "inlet.pressure=100 mmHg",
+             "inlet.pressure_kind=static"},
+            {"at t = ", "(beat 1)", "r = ", "z = ", "cell", "with time.ramp = 0 s the load comes as a blow"}},
         Fault{"blow",
               {"time.ramp=0", "inlet.waveform=pressure", "inlet.pressure=-9e6", "wall.law=EXP1"},
               {"(beat 1)", "smallest time step", "turned inside out", "cell", "time.ramp = 0"}}),
@@ -354,7 +354,7 @@ Arguments random_scene(std::mt19937& random) {
           "mesh.element=" + one_of({"quadratic", "linear", "bubble"}),
           "mesh.cell=" + one_of({"quadrilateral", "triangle"}),
           "mesh.mixed_wall=" + one_of({"true", "false"}),
-          "mesh.motion=" + one_of({"harmonic", "stiffened"}),
+          one_of({"mesh.motion=harmonic", "mesh.motion=stiffened", "output.interval=0.05"}),
           "output.interval=0.05"};
 }
 

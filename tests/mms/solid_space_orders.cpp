@@ -60,7 +60,7 @@ class SolidSpaceOrders : public testing::TestWithParam<Case> {
     problem.directions = [](int, const element::solid::Local&, const Point&) {
       return box::Shape::directions();
     };
-    problem.discretisation = {GetParam().kind.element, mixed_wall, false};
+    problem.discretisation = {GetParam().kind.element, mixed_wall};
     set_instant(vessel, bulk_modulus, tether, GetParam().inlet, problem);
     const full3d::Ranks ranks;
     return solve_instant<SolidCells>(full3d::Assembler(problem, ranks), problem, vessel);

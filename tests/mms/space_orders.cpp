@@ -60,7 +60,7 @@ class SpaceOrders : public testing::TestWithParam<Case> {
   Errors solve(int cells, double bulk_modulus) const {
     axisym::Problem problem;
     problem.mesh = mesh(cells);
-    problem.discretisation = {GetParam().element, mixed_wall, false};
+    problem.discretisation = {GetParam().element, mixed_wall};
     set_instant(vessel, bulk_modulus, tether, GetParam().inlet, problem);
     return solve_instant<HalfPlaneCells>(axisym::Assembler(problem), problem, vessel);
   }

@@ -51,7 +51,7 @@ inline std::vector<NamedLaw> laws() {
 
 template <int dimension>
 void set_conditions(coupled::Element element, coupled::Conditions<dimension>& conditions) {
-  conditions.discretisation = {element, true, false};
+  conditions.discretisation = {element, true};
   conditions.blood = {1.1, 0.6};
   conditions.laws = {laws()[0].law};
   conditions.wall_density = 1.3;

@@ -107,7 +107,7 @@ TEST_P(CoupledTangent, OfEveryInletAndOutlet) {
 }
 
 TEST_P(CoupledTangent, OfAStiffenedMesh) {
-  problem.discretisation.stiffened_mesh = true;
+  problem.discretisation.motion = coupled::MeshMotion::stiffened;
   expect_exact();
 }
 
@@ -120,7 +120,7 @@ TEST_P(CoupledTangent, OfASectionalMesh) {
   spec.blood_cells = spec.wall_cells = spec.axial_cells = 2;
   spec.shape = GetParam().shape;
   problem.mesh = structured_tube(spec);
-  problem.discretisation.sectional_mesh = true;
+  problem.discretisation.motion = coupled::MeshMotion::sectional;
   // Centres of quadratic triangles lie in no section.
   if (GetParam().shape == CellShape::triangle && GetParam().element == Element::quadratic) {
     EXPECT_THROW(Assembler{problem}, std::logic_error);

@@ -128,7 +128,7 @@ TEST_P(SolidTangent, OfEveryInletAndOutlet) {
 }
 
 TEST_P(SolidTangent, OfAStiffenedMesh) {
-  problem.discretisation.stiffened_mesh = true;
+  problem.discretisation.motion = coupled::MeshMotion::stiffened;
   expect_exact();
 }
 

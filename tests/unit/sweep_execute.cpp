@@ -240,6 +240,30 @@ TEST_F(SweepExecution, ATableIsReadAsFarAsItIsAskedFor) {
   }
 }
 
+// The compliance belongs to one kind of outlet: points of the other have none, here and in the table.
+TEST_F(SweepExecution, KeysMayActOnSomePointsOnly) {
+  TierList tiers;
+  tiers.push_back(std::make_unique<PromptTier>());
+  const run::Door door(tiers, run::SceneSource(std::string(TUNICA_SOURCE_DIR) + "/scenes/cylinder.toml"));
+  fs::create_directory(path("list"));
+  std::ofstream(path("list") / "points.csv")
+      << "outlet.kind,outlet.compliance,outlet.resistance\nresistance,,1e6\nrcr,2e-8,1e6\nrcr,,\n";
+  const auto points = list_points(path("list") / "points.csv");
+  const run::Question question{{run::parse_quantity("pressure.max")}, {}};
+  EXPECT_EQ(run_sweep({door, "prompt", *points, question, {}, jobs}, path("list"), {}).done, 3U);
+  std::ifstream table(path("list") / table_file);
+  std::string line;
+  for (const char* keys :
+       {"outlet.compliance[cm5/dyn]", ",resistance,,1000000,", ",rcr,2e-08,1000000,", ",rcr,,,"}) {
+    std::getline(table, line);
+    EXPECT_NE(line.find(keys), std::string::npos) << line;
+  }
+
+  std::ofstream(path("list") / "points.csv") << "outlet.kind,outlet.compliance\nresistance,2e-8\n";
+  const auto useless = list_points(path("list") / "points.csv");
+  EXPECT_THROW(run_sweep({door, "prompt", *useless, question, {}, jobs}, path("useless"), {}), InvalidInput);
+}
+
 TEST_F(SweepExecution, RefusedPointsAtTheBeginningDoNotRefuseTheSweep) {
   TierList tiers;
   tiers.push_back(std::make_unique<PromptTier>());

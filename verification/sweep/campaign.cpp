@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <map>
 
 #include "core/error.hpp"
 #include "core/observables/build_info.hpp"
@@ -65,38 +66,43 @@ void check_bounds(const Json& parameter) {
   }
 }
 
-/// Refuses keys without effect on the scene, and what the tier cannot compute. A point in a corner may be no
-/// scene; the first that is one tells. Points are tried from all over the design: neighbours on a grid share
-/// what makes them none.
+/// Refuses keys without effect on any scene of the sweep, and what the tier cannot compute. A point in a corner
+/// may be no scene, and where one key chooses which others count (a law, an outlet) a key acts on some points
+/// only; points are tried from all over the design, since neighbours on a grid share what makes them none.
 void check_keys(const Campaign& campaign) {
   std::optional<InvalidInput> refusal;
   const auto fidelities = fidelities_of(campaign.points.describe(), campaign.tier, campaign.points.count());
+  bool can_compute = false;
+  std::map<std::string, std::string> unused;  // and why
+  for (const Varied& varied : campaign.points.keys()) unused[varied.key] = {};
   // Of long designs the first points will do, so that a sequence is not gone through before the sweep begins.
   constexpr std::uint64_t enough = 64, far = 1'000'000;
   const std::uint64_t end = std::min(far, campaign.points.count()),
                       step = std::max<std::uint64_t>(1, end / enough);
-  for (std::uint64_t point = 0; point < end; point += step) {
+  for (std::uint64_t point = 0; point < end && !(can_compute && unused.empty()); point += step) {
     auto values = overrides(campaign.points, campaign.points.values(point));
     if (!campaign.question.keys.empty()) values.push_back(run::sensitivity_override(campaign.question.keys));
     try {
       const Scene scene = campaign.door.source().with(values);
-      for (const Varied& varied : campaign.points.keys()) {
-        if (scene.has(varied.key)) continue;
-        std::string reason = "it is not used by this scene";
+      std::erase_if(unused, [&](const auto& key) { return scene.has(key.first); });
+      for (auto& [key, reason] : unused)
         for (const std::string& remark : scene.remarks())
-          if (remark.starts_with(varied.key + " is not used")) reason = remark;
-        throw InvalidInput(fmt::format("--vary {}: {}", varied.key, reason));
-      }
+          if (remark.starts_with(key + " is not used")) reason = remark;
       // Throws when the tier has no such scenes, or no derivatives by these keys.
-      for (const Fidelity& fidelity : fidelities)
-        run::choose_tier(campaign.door.tiers(), fidelity.tier, scene);
-      return;
+      if (!can_compute)
+        for (const Fidelity& fidelity : fidelities)
+          run::choose_tier(campaign.door.tiers(), fidelity.tier, scene);
+      can_compute = true;
     } catch (const InvalidInput& error) {
-      if (std::string_view(error.what()).starts_with("--vary")) throw;
       if (!refusal) refusal = error;
     }
   }
-  if (refusal) throw *refusal;
+  if (!can_compute && refusal) throw *refusal;
+  for (const auto& [key, reason] : unused) {
+    if (reason.empty() && refusal) throw *refusal;  // of points that may use it
+    throw InvalidInput(
+        fmt::format("--vary {}: {}", key, reason.empty() ? "it is not used by this scene" : reason));
+  }
 }
 
 Json describe(const Campaign& campaign) {

@@ -165,6 +165,7 @@ class List final : public Points {
     std::vector<double> factors;
     std::set<std::string> seen;
     for (const std::string& head : lines.front().second) {
+      if (head.empty()) throw InvalidInput(fmt::format("{}: a column without a key", file.string()));
       const std::size_t open = head.ends_with(']') ? head.rfind('[') : std::string::npos;
       // An index of a layer stands in brackets too, but never at the end of a key.
       const std::string key = head.substr(0, open);
@@ -188,8 +189,15 @@ class List final : public Points {
         throw InvalidInput(fmt::format("{}, line {}: {} values for {} keys", file.string(), number,
                                        cells.size(), keys_.size()));
       for (std::size_t k = 0; k < cells.size(); ++k)
-        values_.push_back(
-            keys_[k].unit.empty() ? cells[k] : number_text(cells[k], factors[k], file, number, keys_[k].key));
+        values_.push_back(keys_[k].unit.empty() || cells[k].empty()
+                              ? cells[k]
+                              : number_text(cells[k], factors[k], file, number, keys_[k].key));
+    }
+    for (std::size_t k = 0; k < keys_.size(); ++k) {
+      std::size_t at = k;
+      while (at < values_.size() && values_[at].empty()) at += keys_.size();
+      if (at >= values_.size())
+        throw InvalidInput(fmt::format("{}: {} has no value in any line", file.string(), keys_[k].key));
     }
     if (!laws_.empty()) check_laws(file);
   }
@@ -235,6 +243,10 @@ class List final : public Points {
     laws_ = std::move(in_order);
     for (std::size_t i = 0; i < values_.size(); ++i) {
       const Axis& law = laws_[i % keys_.size()];
+      if (values_[i].empty())
+        throw InvalidInput(
+            fmt::format("{}: {} of point {} is missing; with --vary every point needs its values",
+                        file.string(), law.key, i / keys_.size()));
       if (const double value = std::stod(values_[i]); !law.marginal->contains(value))
         throw InvalidInput(fmt::format("{}: {} = {} of point {} is outside of {}", file.string(), law.key,
                                        values_[i], i / keys_.size(), law.marginal->text()));
@@ -278,7 +290,6 @@ class List final : public Points {
     for (std::string& cell : cells) {
       const std::size_t first = cell.find_first_not_of(" \t");
       cell = first == std::string::npos ? "" : cell.substr(first, cell.find_last_not_of(" \t") - first + 1);
-      if (cell.empty()) throw InvalidInput(where + ": an empty cell");
     }
     return cells;
   }
@@ -337,7 +348,8 @@ std::pair<uncertainty::Sampling, std::uint64_t> parse_sample(const std::string& 
 
 std::vector<std::string> overrides(const Points& points, const std::vector<std::string>& values) {
   std::vector<std::string> all;
-  for (std::size_t k = 0; k < values.size(); ++k) all.push_back(points.keys()[k].key + "=" + values[k]);
+  for (std::size_t k = 0; k < values.size(); ++k)
+    if (!values[k].empty()) all.push_back(points.keys()[k].key + "=" + values[k]);
   return all;
 }
 

@@ -49,12 +49,13 @@ std::unique_ptr<Points> pick_freeze_points(std::vector<Axis> axes, uncertainty::
 /// Reads "sobol:N", "lhs:N" or "random:N".
 std::pair<uncertainty::Sampling, std::uint64_t> parse_sample(const std::string& text);
 
-/// The rows of a CSV file: a header of keys, "key" or "key[unit]", then values. `laws` are distributions of
-/// the keys, for surrogates that are made of the points: of each key or of none. Throws InvalidInput naming
-/// file, line and column, a key without its distribution, or a value outside of it.
+/// The rows of a CSV file: a header of keys, "key" or "key[unit]", then values; where a cell is empty the
+/// point has what the scene says. `laws` are distributions of the keys, for surrogates that are made of the
+/// points: of each key or of none. Throws InvalidInput naming file, line and column, a key without its
+/// distribution, or a value that is missing or outside of it.
 std::unique_ptr<Points> list_points(const std::filesystem::path& file, std::vector<Axis> laws = {});
 
-/// "key=value" for each key.
+/// "key=value" for each key that has a value.
 std::vector<std::string> overrides(const Points& points, const std::vector<std::string>& values);
 
 }  // namespace tunica::sweep

@@ -107,9 +107,9 @@ class Query {
     return code == SQLITE_ROW;
   }
   std::int64_t integer(int column) const { return sqlite3_column_int64(statement_, column); }
+  bool is_null(int column) const { return sqlite3_column_type(statement_, column) == SQLITE_NULL; }
   double number(int column) const {
-    return sqlite3_column_type(statement_, column) == SQLITE_NULL ? observables::none
-                                                                  : sqlite3_column_double(statement_, column);
+    return is_null(column) ? observables::none : sqlite3_column_double(statement_, column);
   }
   std::string text(int column) const {
     const unsigned char* found = sqlite3_column_text(statement_, column);
@@ -152,7 +152,7 @@ Table::Table(const std::filesystem::path& file, Mode mode, std::vector<Varied> k
                                    "\"seconds[s]\" REAL NOT NULL"};
   std::vector<std::string> marks(fixed_columns.size() + keys_.size() + numbers_.size(), "?");
   for (const Varied& key : keys_)
-    columns.push_back(quoted(key_head(key)) + (key.unit.empty() ? " TEXT NOT NULL" : " REAL NOT NULL"));
+    columns.push_back(quoted(key_head(key)) + (key.unit.empty() ? " TEXT NOT NULL" : " REAL"));
   for (const NumberColumn& column : numbers_) columns.push_back(quoted(column.head()) + " REAL");
   if (mode == Mode::create)
     database_->run(fmt::format("BEGIN; PRAGMA application_id = {}; CREATE TABLE sweep ({}); COMMIT;",
@@ -181,6 +181,8 @@ void Table::insert(const Row& row) {
   for (std::size_t k = 0; k < keys_.size(); ++k) {
     if (keys_[k].unit.empty())
       bind_text(row.keys[k]);
+    else if (row.keys[k].empty())
+      database_->check(sqlite3_bind_null(statement, ++column));
     else
       database_->check(sqlite3_bind_double(statement, ++column, std::stod(row.keys[k])));
   }
@@ -237,7 +239,8 @@ void Table::each(const std::function<void(const Row&)>& use, std::size_t numbers
     row.seconds = query.number(column++);
     row.keys.clear();
     for (const Varied& key : keys_) {
-      row.keys.push_back(key.unit.empty() ? query.text(column) : value_text(query.number(column)));
+      const bool is_text = key.unit.empty() || query.is_null(column);
+      row.keys.push_back(is_text ? query.text(column) : value_text(query.number(column)));
       ++column;
     }
     row.numbers.clear();
