@@ -25,7 +25,7 @@ class CompressibleRing final : public RingModel {
     int points = 12;          ///< of its Gauss rule
     double accuracy = 1e-10;  ///< relative, of the responses
     /// Relative error of w that Newton's method may leave for the last step, which a response makes itself.
-    double left_by_newton = 1e-11;
+    double left_by_newton = 1e-13;
     double kink = finest_kink;  ///< how closely elements end at fronts
   };
 
