@@ -36,7 +36,8 @@ Problem pipe(Element element, CellShape shape) {
   return problem;
 }
 
-/// Displacement of the surface at a distance from the nearer end, along the radius and inwards along the axis.
+/// Displacement of the surface at a distance from the nearer end, along the radius and inwards along the
+/// axis.
 using Surface = std::function<std::pair<double, double>(double)>;
 
 std::vector<double> moved(const Assembler& assembler, const Problem& problem, const Surface& surface) {
@@ -59,8 +60,8 @@ double least_jacobian(const Assembler& assembler, const std::vector<double>& y) 
   return assembler.least_jacobian().value;
 }
 
-// A thin wall that opens by more than its lumen's radius leans over the clamp: the surface turns back over a tenth
-// of the radius, so that no map of sections along the radius follows it.
+// A thin wall that opens by more than its lumen's radius leans over the clamp: the surface turns back over a
+// tenth of the radius, so that no map of sections along the radius follows it.
 std::pair<double, double> bulge(double d) {
   return {1.2 * (1 - std::exp(-2.2 * d)), 0.45 * d * std::exp(-std::pow(d / 0.09, 2)) -
                                               0.48 * (1 - std::exp(-std::pow(d / 0.22, 2))) * std::exp(-d)};

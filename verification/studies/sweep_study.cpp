@@ -58,7 +58,7 @@ std::vector<sweep::Axis> axes() {
 void compute(const Study& study, sweep::Points& points, const std::string& tier, bool surrogates,
              const std::string& name) {
   const auto folder = study.kept(name);
-  const run::Door door = study.door({"", "cylinder", tier, {"mesh.motion=sectional"}, {}}, {});
+  const run::Door door = study.door({"", "cylinder", tier, {}, {}}, {});
   run::Question question;
   for (const Asked& one : asked) question.quantities.push_back(run::parse_quantity(one.name));
   sweep::Campaign campaign{door,  tier,  points, question,  {}, available_threads(),

@@ -66,9 +66,10 @@ void check_bounds(const Json& parameter) {
   }
 }
 
-/// Refuses keys without effect on any scene of the sweep, and what the tier cannot compute. A point in a corner
-/// may be no scene, and where one key chooses which others count (a law, an outlet) a key acts on some points
-/// only; points are tried from all over the design, since neighbours on a grid share what makes them none.
+/// Refuses keys without effect on any scene of the sweep, and what the tier cannot compute. A point in a
+/// corner may be no scene, and where one key chooses which others count (a law, an outlet) a key acts on
+/// some points only; points are tried from all over the design, since neighbours on a grid share what makes
+/// them none.
 void check_keys(const Campaign& campaign) {
   std::optional<InvalidInput> refusal;
   const auto fidelities = fidelities_of(campaign.points.describe(), campaign.tier, campaign.points.count());
