@@ -18,7 +18,7 @@ std::string refusal(const Scene& scene) {
     return "wall.incompressible = true is for the 0D tier; write false and a large wall.bulk_modulus (9e6 "
            "dyn/cm2 changes the volume by 1 to 2 %)";
   if (!scene.texts("sensitivity.parameters").empty())
-    return "sensitivity.parameters are for the 0D tier; leave them out, or use --tier lumped";
+    return "sensitivity.parameters are for the 0D and 2D tiers; leave them out, or use --tier lumped";
   if (scene.has("time.scheme") && scene.text("time.scheme") == "generalized-alpha" &&
       scene.number("time.step") == 0)
     return "time.scheme = \"generalized-alpha\" is of first order in pressure when steps vary; give "

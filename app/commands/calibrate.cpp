@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "app/commands/commands.hpp"
+#include "app/commands/option_checks.hpp"
 #include "app/interrupt.hpp"
 #include "app/progress.hpp"
 #include "app/report/calibration.hpp"
@@ -107,7 +108,9 @@ CLI::App* add_calibrate_command(CLI::App& app, CalibrateArguments& arguments) {
                    "Searches, from the scene's values and from places drawn (default 5)")
       ->check(CLI::Range(1, 1000))
       ->type_name("N");
-  command->add_option("--seed", arguments.seed, "Of the places drawn (default 0)")->type_name("S");
+  command->add_option("--seed", arguments.seed, "Of the places drawn (default 0)")
+      ->check(check_seed)
+      ->type_name("S");
   command->add_option("--jobs", arguments.jobs, "Searches side by side (default: all cores)")
       ->check(CLI::Range(1, 1024))
       ->type_name("N");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -49,8 +50,8 @@ struct SweepArguments {
   bool indices = false;
   bool surrogate = false, no_surrogate = false;  ///< for indices; neither: where runs are dear
   std::vector<std::string> fidelities;           ///< "lumped", "axisym:200"; empty: the one tier
-  double until = 0;  ///< width of intervals of indices; 0: as many points as --sample says
-  int jobs = 0;      ///< 0: all cores
+  std::optional<double> until;  ///< width of intervals of indices; none: as many points as --sample says
+  int jobs = 0;                 ///< 0: all cores
   int ranks = 1;
   std::string shard;  ///< "1/4"; empty: all, or what a Slurm array says
   std::vector<std::string> merge;

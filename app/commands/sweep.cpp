@@ -143,7 +143,7 @@ int sweep_command(const SweepArguments& arguments, const Program& program) {
     if (!std::exchange(begun, true)) computation_begins();
     display.show(progress);
   };
-  const std::optional<double> until = arguments.until > 0 ? std::optional(arguments.until) : std::nullopt;
+  const std::optional<double> until = arguments.until;
   const auto compute = [&](sweep::Points& of) {
     const sweep::Campaign campaign{
         door,  plan.tier,      of, plan.question, shard, jobs, arguments.keep_runs, arguments.timings,

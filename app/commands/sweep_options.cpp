@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 
 #include "app/commands/commands.hpp"
+#include "app/commands/option_checks.hpp"
 
 namespace tunica {
 
@@ -40,7 +41,7 @@ CLI::App* add_sweep_command(CLI::App& app, SweepArguments& arguments) {
       ->allow_extra_args(false);
   option("--sample", arguments.sample, "Draw points: sobol:N, lhs:N or random:N", "DESIGN");
   option("--seed", arguments.seed, "Of the sample (default 0; sobol is shifted at random by any other)", "S")
-      ->check(CLI::NonNegativeNumber);
+      ->check(check_seed);
   option("--points", arguments.points, "CSV file with a header of keys, units in brackets optional", "FILE");
   option("--tier", arguments.tier, "Model to compute with, as in tunica run", "TIER");
   option("--set", arguments.overrides, "Override a key of the scene for all points; may be repeated",
@@ -73,6 +74,7 @@ CLI::App* add_sweep_command(CLI::App& app, SweepArguments& arguments) {
       ->allow_extra_args(false);
   option("--until", arguments.until,
          "With --indices: take more points until every interval is at most so wide (0.02)", "WIDTH")
+      ->check(check_width)
       ->needs(indices);
   command->add_flag("--gradients", arguments.gradients,
                     "Add the derivatives by the keys that vary (0D and 2D tiers)");

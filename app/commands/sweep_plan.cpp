@@ -30,8 +30,7 @@ void check_indices(const SweepArguments& arguments) {
         "sweep --indices: of the keys of --points say the ranges or distributions, by --vary KEY=LO:HI ...");
   if (!is_listed && (arguments.sample.empty() || arguments.vary.empty()))
     throw InvalidInput("sweep --indices: draw points by --vary KEY=LO:HI ... --sample sobol:N");
-  if (arguments.until < 0) throw InvalidInput("sweep --until: the width of an interval is above 0");
-  if (arguments.until == 0) return;
+  if (!arguments.until) return;
   if (is_listed) throw InvalidInput("sweep --until: a list does not grow; take --sample sobol:N or random:N");
   if (sweep::parse_sample(arguments.sample).first == uncertainty::Sampling::latin_hypercube)
     throw InvalidInput("sweep --until: a Latin hypercube does not grow; take --sample sobol:N or random:N");
@@ -43,7 +42,7 @@ void check_indices(const SweepArguments& arguments) {
 
 void check_fidelities(const SweepArguments& arguments) {
   if (arguments.tier != "auto") throw InvalidInput("sweep --fidelities: names the tiers; leave out --tier");
-  if (arguments.until != 0)
+  if (arguments.until)
     throw InvalidInput(
         "sweep --until: does not know which tier's points to add; say them by --fidelities TIER:N,...");
   if (arguments.no_surrogate)
@@ -139,8 +138,20 @@ SweepPlan plan_sweep(const SweepArguments& arguments, const TierList& tiers, con
     for (const auto& fidelity : sweep::fidelities_of(points.describe(), arguments.tier, points.count()))
       names.push_back(fidelity.tier);
   }
-  for (const std::string& name : names)
-    plan.all_compute = plan.all_compute && run::choose_tier(tiers, name, scene).computes();
+  std::ptrdiff_t before = -1;  // place of the tier before in the list, which has the cheapest first
+  for (const std::string& name : names) {
+    const Tier& tier = run::choose_tier(tiers, name, scene);
+    plan.all_compute = plan.all_compute && tier.computes();
+    const auto place = std::find_if(tiers.begin(), tiers.end(),
+                                    [&](const auto& other) { return other->name() == tier.name(); }) -
+                       tiers.begin();
+    if (place <= before)
+      throw InvalidInput(
+          fmt::format("--fidelities {}: {} is not dearer than the tier before it; write tiers from cheap to "
+                      "dear, as in lumped,axisym",
+                      fmt::join(names, ","), tier.name()));
+    before = place;
+  }
   plan.tier = fmt::format("{}", fmt::join(names, ","));
   plan.question = question_of(arguments, points);
   return plan;

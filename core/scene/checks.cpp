@@ -161,8 +161,8 @@ void SceneReader::check_law(const std::string& prefix, const wall::LawEntry& law
                prefix, bulk, shear, 2 * shear / 3));
 }
 
-std::vector<std::string> SceneReader::keys_with_sensitivity() const {
-  const bool layered = scene_.count("wall.layers") > 0;
+std::vector<std::string> keys_with_sensitivity(const Scene& scene) {
+  const bool layered = scene.count("wall.layers") > 0;
   // Keys whose values layers and families have taken over do nothing by themselves any more. A layer's
   // fraction counts relative to their sum.
   const auto is_tied = [&](std::string_view key) {
@@ -172,12 +172,12 @@ std::vector<std::string> SceneReader::keys_with_sensitivity() const {
     if (!tissue.starts_with("wall.")) return false;
     if (layered && !tissue.starts_with("wall.layers")) return name != "density";
     if (tissue.find("families") != std::string::npos) return false;
-    if (name == "sharpness") return scene_.text(tissue + "recruitment") == "sharp";
-    return scene_.count(tissue + "families") > 0 &&
+    if (name == "sharpness") return scene.text(tissue + "recruitment") == "sharp";
+    return scene.count(tissue + "families") > 0 &&
            (name.starts_with("fiber_") || name.starts_with("activation_"));
   };
   std::vector<std::string> keys;
-  for (const auto& [key, value] : scene_.values()) {
+  for (const auto& [key, value] : scene.values()) {
     if (!std::holds_alternative<double>(value)) continue;
     const bool of_method = key.starts_with("output.") || key.starts_with("accuracy.") ||
                            key.starts_with("time.") || key == "inlet.period";
@@ -188,7 +188,7 @@ std::vector<std::string> SceneReader::keys_with_sensitivity() const {
 
 void SceneReader::check_sensitivities() const {
   const std::string list = "sensitivity.parameters";
-  const std::vector<std::string> keys = keys_with_sensitivity();
+  const std::vector<std::string> keys = keys_with_sensitivity(scene_);
   std::set<std::string> seen;
   for (const std::string& key : scene_.texts(list)) {
     if (!seen.insert(key).second)

@@ -58,7 +58,6 @@ class SceneReader {
   void check_outlet() const;
   void check_law(const std::string& prefix, const wall::LawEntry& law) const;
   void check_sensitivities() const;
-  std::vector<std::string> keys_with_sensitivity() const;
 
   /// Stores the given value, else the default of its declaration, if any.
   void take(const std::string& key);

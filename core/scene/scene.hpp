@@ -71,6 +71,9 @@ Scene parse_scene(std::string_view toml_text, std::string name, const std::files
 /// the same scene (numbers are written with 17 digits where needed).
 std::string describe(const Scene& scene);
 
+/// The keys that sensitivity.parameters may name in a scene: numbers of the physics that act in it.
+std::vector<std::string> keys_with_sensitivity(const Scene& scene);
+
 /// Converts "75 mmHg" to a number in `target_unit`. Throws InvalidInput when the text is no number
 /// with a unit or when its dimension is another one. `key` is for the message.
 double convert_quantity(std::string_view text, const std::string& target_unit, std::string_view key);

@@ -124,6 +124,7 @@ TEST_F(Calibrate, RefusesWhatMakesNoSenseInOneLine) {
       {joined({"--free", "outlet.resistance=1e6:2e6"}, {"--target", "presure.max=1"}),
        "did you mean pressure.max"},
       {joined({"--free", "outlet.resistance=1e6:2e6", "--starts", "0"}, target), "--starts"},
+      {joined({"--free", "outlet.resistance=1e6:2e6", "--seed", "-1"}, target), "--seed"},
   };
   for (const auto& [more, expected] : cases) {
     const Ended ended = calibrate("refused", more);

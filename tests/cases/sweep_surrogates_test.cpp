@@ -233,6 +233,7 @@ TEST_F(SweepSurrogates, AreLeftWhenInterrupted) {
 TEST_F(SweepSurrogates, RefuseWhatMakesNoSense) {
   write_whole(path("outside.csv"), "outlet.resistance,tether.stiffness\n1e6,1e7\n3e6,1e7\n");
   write_whole(path("other.csv"), "outlet.resistance,wall.activation_stretch\n1e6,1.5\n");
+  write_whole(path("words.csv"), "outlet.resistance,tether.stiffness,wall.law\n1e6,1e7,EXP1\n");
   for (const auto& [more, why] : std::vector<std::pair<Texts, std::string>>{
            {{"--sample", "sobol:8", "--indices", "--surrogate"}, "needs 16 points"},
            // Of a dear tier without being asked.
@@ -245,6 +246,8 @@ TEST_F(SweepSurrogates, RefuseWhatMakesNoSense) {
            {{"--sample", "sobol:99", "--fidelities", "lumped"}, "two tiers or more"},
            {{"--sample", "sobol:99", "--fidelities", "lumped,axisim"}, "axisym"},
            {{"--sample", "sobol:99", "--fidelities", "lumped,lumped"}, "lumped is there twice"},
+           {{"--sample", "sobol:99", "--fidelities", "axisym,lumped"}, "from cheap to dear"},
+           {{"--points", path("words.csv"), "--indices"}, "wall.law holds words"},
            {{"--sample", "sobol:99", "--fidelities", "lumped,axisym:100"}, "there are 99 points"},
            {{"--sample", "sobol:99", "--fidelities", "lumped,axisym:3"}, "take 16 or more"},
            {{"--sample", "sobol:99", "--fidelities", "lumped,axisym:x"}, "TIER:N"},

@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <thread>
 
+#include "core/observables/result.hpp"
 #include "core/observables/table.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -296,6 +297,10 @@ TEST_F(Sweep, RefusesWhatMakesNoSense) {
            {{"--vary", "time.beats=1:2:3"}, "takes whole numbers, not 1.5"},
            {{"--vary", "wall.layers[0].fraction=0.2:0.4:2"}, "it has 0 [[wall.layers]]"},
            {{"--vary", "outlet.resistance=1e6:2e6", "--sample", "lhs:3", "--seed", "-1"}, "--seed"},
+           {{"--vary", "outlet.resistance=1e6:2e6", "--sample", "lhs:3", "--seed", "99999999999999999999"},
+            "from 0 to 18446744073709551615"},
+           {{"--vary", "accuracy.tolerance=1e-3:1e-2:2", "--gradients"},
+            "no derivatives by accuracy.tolerance"},
            {{"--vary", "outlet.resistance=1e6:2e6:3", "--jobs", "100000"}, "from 1 to 1024"},
            {{"--vary", "outlet.resistance=1 mmHg:2e6:3"}, "another dimension"},
            {{"--vary", "outlet.resistance=1e6:2e6:3", "--quantity", "pressure.mx"},
@@ -409,9 +414,18 @@ TEST_F(Sweep, IndicesSayWhatGoverns) {
             "does not grow"},
            {{"--vary", "outlet.resistance=1e6:2e6", "--sample", "sobol:8", "--until", "0.1"}, "--indices"},
            {{"--vary", "outlet.resistance=1e6:2e6", "--sample", "sobol:8", "--indices", "--until", "-1"},
+            "above 0"},
+           {{"--vary", "outlet.resistance=1e6:2e6", "--sample", "sobol:8", "--indices", "--until", "0"},
+            "above 0"},
+           {{"--vary", "outlet.resistance=1e6:2e6", "--sample", "sobol:8", "--indices", "--until", "nan"},
+            "above 0"},
+           {{"--vary", "outlet.resistance=1e6:2e6", "--sample", "sobol:8", "--indices", "--until", "inf"},
+            "above 0"},
+           {{"--vary", "outlet.resistance=1e6:2e6", "--sample", "sobol:8", "--indices", "--until", ""},
             "above 0"}}) {
     const Ended refused = sweep("refused", more);
     EXPECT_EQ(refused.code, 2) << refused.errors;
+    EXPECT_FALSE(fs::exists(path("refused"))) << why;
     EXPECT_NE(refused.errors.find(why), std::string::npos) << refused.errors;
   }
 }
@@ -431,5 +445,29 @@ TEST_F(Sweep, GradientsAreThoseOfTheTable) {
     ASSERT_NE(slope, nullptr) << csv("slope");
     const double difference = (values[2] - values[0]) / 2e3;
     EXPECT_NEAR(slope->values[1], difference, 1e-3 * std::abs(difference)) << quantity;
+  }
+}
+
+// Where one key chooses which others count, a point has the derivatives that a run of it alone has.
+TEST_F(Sweep, GradientsAreEmptyWhereAKeyDoesNotAct) {
+  const std::string heads = "outlet.kind,outlet.compliance,outlet.proximal_resistance,outlet.resistance\n";
+  const std::string rcr = "rcr,1e-7,1e5,1.1e6\n";
+  write_whole(path("both.csv"), heads + "resistance,,,1e6\n" + rcr);
+  write_whole(path("rcr.csv"), heads + rcr);
+  for (const Texts& more : {Texts{}, Texts{"--keep-runs"}}) {
+    const Texts how = joined({"--gradients", "--replace"}, more);
+    const Ended ended = sweep("both", joined({"--points", path("both.csv")}, how));
+    ASSERT_EQ(ended.code, 0) << ended.errors;
+    ASSERT_EQ(sweep("rcr", joined({"--points", path("rcr.csv")}, how)).code, 0);
+    const auto both = table("both"), alone = table("rcr");
+    for (const char* key : {"outlet.compliance", "outlet.proximal_resistance", "outlet.resistance"}) {
+      const std::string name = std::string("d(pressure.max)/d(") + key + ')';
+      ASSERT_NE(both.find(name), nullptr) << csv("both");
+      EXPECT_EQ(both.find(name)->values[1], alone.find(name)->values[0]) << name;
+      EXPECT_NE(alone.find(name)->values[0], 0) << name;
+      EXPECT_EQ(observables::is_none(both.find(name)->values[0]), key != std::string("outlet.resistance"))
+          << name;
+    }
+    EXPECT_GT(both.find("pressure.max")->values[0], 1e5);
   }
 }

@@ -279,3 +279,22 @@ TEST_F(SweepExecution, RefusedPointsAtTheBeginningDoNotRefuseTheSweep) {
   EXPECT_EQ(summary.refused, 100U);
   EXPECT_EQ(summary.done, 100U);
 }
+
+TEST_F(SweepExecution, AKeyMayActOnAFewPointsOfALongList) {
+  TierList tiers;
+  tiers.push_back(std::make_unique<PromptTier>());
+  const run::Door door(tiers, run::SceneSource(std::string(TUNICA_SOURCE_DIR) + "/scenes/cylinder.toml"));
+  fs::create_directory(path("list"));
+  const run::Question question{{run::parse_quantity("pressure.max")}, {}};
+  // Whichever points are looked at first, most of these are not.
+  for (const int place : {1, 7, 499, 998}) {
+    std::string file = "outlet.kind,outlet.compliance,outlet.resistance\n";
+    for (int k = 0; k < 1000; ++k) file += k == place ? "rcr,2e-8,1e6\n" : ",,1e6\n";
+    std::ofstream(path("list") / "points.csv") << file;
+    const auto points = list_points(path("list") / "points.csv");
+    SweepControl control;
+    control.replace = true;
+    EXPECT_EQ(run_sweep({door, "prompt", *points, question, {}, jobs}, path("list"), control).done, 1000U)
+        << place;
+  }
+}

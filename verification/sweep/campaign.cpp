@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <map>
+#include <set>
 
 #include "core/error.hpp"
 #include "core/observables/build_info.hpp"
@@ -66,44 +67,76 @@ void check_bounds(const Json& parameter) {
   }
 }
 
-/// Refuses keys without effect on any scene of the sweep, and what the tier cannot compute. A point in a
-/// corner may be no scene, and where one key chooses which others count (a law, an outlet) a key acts on
-/// some points only; points are tried from all over the design, since neighbours on a grid share what makes
-/// them none.
+/// What decides which keys count at a point: its words, and where it has none and where numbers.
+std::string kind_of(const Points& points, const std::vector<std::string>& values) {
+  std::string kind;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const bool is_number = !points.keys()[k].unit.empty() && !values[k].empty();
+    kind += (is_number ? "1" : values[k]) + '\n';
+  }
+  return kind;
+}
+
+/// Refuses keys without effect on any scene of the sweep, those of gradients without a derivative in any,
+/// and what the tier cannot compute. A point in a corner may be no scene, and where one key chooses which
+/// others count (a law, an outlet) a key acts on some points only; points are tried from all over the design,
+/// since neighbours on a grid share what makes them none.
 void check_keys(const Campaign& campaign) {
   std::optional<InvalidInput> refusal;
   const auto fidelities = fidelities_of(campaign.points.describe(), campaign.tier, campaign.points.count());
   bool can_compute = false;
   std::map<std::string, std::string> unused;  // and why
+  std::vector<std::string> without_derivative = campaign.question.keys;
   for (const Varied& varied : campaign.points.keys()) unused[varied.key] = {};
   // Of long designs the first points will do, so that a sequence is not gone through before the sweep begins.
   constexpr std::uint64_t enough = 64, far = 1'000'000;
   const std::uint64_t end = std::min(far, campaign.points.count()),
                       step = std::max<std::uint64_t>(1, end / enough);
-  for (std::uint64_t point = 0; point < end && !(can_compute && unused.empty()); point += step) {
-    auto values = overrides(campaign.points, campaign.points.values(point));
-    if (!campaign.question.keys.empty()) values.push_back(run::sensitivity_override(campaign.question.keys));
+  const auto attempt = [&](const std::vector<std::string>& keys) {
+    auto values = overrides(campaign.points, keys);
+    const auto offered = offered_keys(campaign, values);
+    if (!offered.empty()) values.push_back(run::sensitivity_override(offered));
     try {
       const Scene scene = campaign.door.source().with(values);
       std::erase_if(unused, [&](const auto& key) { return scene.has(key.first); });
       for (auto& [key, reason] : unused)
         for (const std::string& remark : scene.remarks())
           if (remark.starts_with(key + " is not used")) reason = remark;
+      std::erase_if(without_derivative, [&](const std::string& key) {
+        return std::find(offered.begin(), offered.end(), key) != offered.end();
+      });
+      // A point without derivatives does not tell whether the tier has any.
+      if (can_compute || (offered.empty() && !campaign.question.keys.empty())) return;
       // Throws when the tier has no such scenes, or no derivatives by these keys.
-      if (!can_compute)
-        for (const Fidelity& fidelity : fidelities)
-          run::choose_tier(campaign.door.tiers(), fidelity.tier, scene);
+      for (const Fidelity& fidelity : fidelities)
+        run::choose_tier(campaign.door.tiers(), fidelity.tier, scene);
       can_compute = true;
     } catch (const InvalidInput& error) {
       if (!refusal) refusal = error;
     }
+  };
+  const auto is_settled = [&] { return can_compute && unused.empty() && without_derivative.empty(); };
+  std::set<std::string> tried;  // kinds of points
+  for (std::uint64_t point = 0; point < end && !is_settled(); point += step) {
+    const auto values = campaign.points.values(point);
+    tried.insert(kind_of(campaign.points, values));
+    attempt(values);
   }
+  // Of a list a key may count in a few points only.
+  for (std::uint64_t point = 0; point < end && !is_settled(); ++point)
+    if (const auto values = campaign.points.values(point);
+        tried.insert(kind_of(campaign.points, values)).second)
+      attempt(values);
   if (!can_compute && refusal) throw *refusal;
   for (const auto& [key, reason] : unused) {
     if (reason.empty() && refusal) throw *refusal;  // of points that may use it
     throw InvalidInput(
         fmt::format("--vary {}: {}", key, reason.empty() ? "it is not used by this scene" : reason));
   }
+  if (!without_derivative.empty())
+    throw InvalidInput(fmt::format(
+        "--gradients: there are no derivatives by {} in any of the scenes; vary it without --gradients",
+        without_derivative.front()));
 }
 
 Json describe(const Campaign& campaign) {

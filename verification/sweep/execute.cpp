@@ -83,8 +83,8 @@ class Execution {
     control.interrupted = [this] { return asked_to_stop(); };
     const std::string tier = campaign_.points.tier(job.row.point);
     const run::Case what{tier.empty() ? campaign_.tier : tier, overrides(campaign_.points, job.row.keys)};
-    const run::Outcome outcome = campaign_.keep_runs ? kept(what, job.row.point, control)
-                                                     : campaign_.door.ask(what, campaign_.question, control);
+    const run::Outcome outcome =
+        campaign_.keep_runs ? kept(what, job.row.point, control) : asked(what, control);
     job.is_ended = outcome.ending != run::Ending::interrupted;
     job.row.status = run::name_of(outcome.ending);
     job.row.reason = outcome.reason;
@@ -94,9 +94,28 @@ class Execution {
     return job;
   }
 
+  run::Outcome asked(const run::Case& what, const RunControl& control) const {
+    const run::Question& question = campaign_.question;
+    const run::Question offered{question.quantities, offered_keys(campaign_, what.overrides)};
+    run::Outcome outcome = campaign_.door.ask(what, offered, control);
+    if (offered.keys == question.keys) return outcome;
+    outcome.answer.gradients.resize(outcome.answer.values.size());
+    for (std::vector<double>& gradient : outcome.answer.gradients) {
+      std::vector<double> of_all;
+      for (const std::string& key : question.keys) {
+        const auto at = std::find(offered.keys.begin(), offered.keys.end(), key);
+        of_all.push_back(at == offered.keys.end()
+                             ? observables::none
+                             : gradient[static_cast<std::size_t>(at - offered.keys.begin())]);
+      }
+      gradient = std::move(of_all);
+    }
+    return outcome;
+  }
+
   run::Outcome kept(run::Case what, std::uint64_t point, const RunControl& control) const {
-    if (!campaign_.question.keys.empty())
-      what.overrides.push_back(run::sensitivity_override(campaign_.question.keys));
+    if (const auto keys = offered_keys(campaign_, what.overrides); !keys.empty())
+      what.overrides.push_back(run::sensitivity_override(keys));
     run::Keep keep;
     keep.folder = folder_ / "points" / fmt::format("{}", point);
     run::Outcome outcome = campaign_.door.compute(what, keep, control);
@@ -126,6 +145,20 @@ class Execution {
 };
 
 }  // namespace
+
+std::vector<std::string> offered_keys(const Campaign& campaign, const std::vector<std::string>& overrides) {
+  std::vector<std::string> keys = campaign.question.keys;
+  if (keys.empty()) return keys;
+  try {
+    const auto offered = keys_with_sensitivity(campaign.door.source().with(overrides));
+    std::erase_if(keys, [&](const std::string& key) {
+      return std::find(offered.begin(), offered.end(), key) == offered.end();
+    });
+  } catch (const InvalidInput&) {
+    // Whoever computes the point says why its values make no scene.
+  }
+  return keys;
+}
 
 bool execute(const Campaign& campaign, const std::filesystem::path& folder, Table& table,
              const SweepControl& control) {

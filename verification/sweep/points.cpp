@@ -229,6 +229,11 @@ class List final : public Points {
     for (const Varied& key : keys_) {
       const auto law =
           std::find_if(laws_.begin(), laws_.end(), [&](const Axis& axis) { return axis.key == key.key; });
+      if (key.unit.empty())
+        throw InvalidInput(fmt::format(
+            "{}: {} holds words, of which there are no indices; choose one by --set {}=..., and leave out "
+            "the column",
+            file.string(), key.key, key.key));
       if (law == laws_.end())
         throw InvalidInput(
             fmt::format("{}: {} varies; for indices say its range or distribution too, as in --vary {}=LO:HI",
