@@ -8,7 +8,8 @@
 
 namespace tunica {
 
-// Checks of an option's text, as CLI::Option::check takes them: what is wrong with it, empty where nothing is.
+// Checks of an option's text, as CLI::Option::check takes them: what is wrong with it, empty where nothing
+// is.
 
 /// All of the text as a T; false where it is none, or none that T can hold.
 template <class T>

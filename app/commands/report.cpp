@@ -34,7 +34,8 @@ int keep_point(const run::Door& door, const nlohmann::ordered_json& campaign, co
   std::vector<std::string> values;
   const auto& parameters = campaign.at("design").at("parameters");
   for (std::size_t k = 0; k < row.keys.size(); ++k)
-    values.push_back(fmt::format("{}={}", parameters.at(k).at("key").get<std::string>(), row.keys[k]));
+    if (!row.keys[k].empty())  // else the point has what the scene says
+      values.push_back(fmt::format("{}={}", parameters.at(k).at("key").get<std::string>(), row.keys[k]));
   const std::string tier = row.tier.empty() ? campaign.at("tier").get<std::string>() : row.tier;
   run::Keep keep;
   keep.folder = folder / "points" / fmt::format("{}", row.point);

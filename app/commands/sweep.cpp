@@ -65,6 +65,13 @@ double make_indices(sweep::SweepSummary& summary, const fs::path& folder, bool q
   return indices.widest;
 }
 
+/// How many points a folder's sweep had when it was last at work; 0 where there is none.
+std::uint64_t points_before(const fs::path& folder) {
+  return fs::exists(folder / sweep::campaign_file)
+             ? sweep::read_campaign(folder).at("points").get<std::uint64_t>()
+             : 0;
+}
+
 /// Writes the report of what there is and tells how it ended.
 int conclude(const sweep::SweepSummary& summary, const fs::path& folder, bool quiet) {
   const std::uint64_t ended = summary.done + summary.gave_up + summary.refused;
@@ -111,7 +118,7 @@ int sweep_command(const SweepArguments& arguments, const Program& program) {
   options.ranks = arguments.ranks;
   const run::Door door(program.tiers(), run::SceneSource(arguments.scene, arguments.overrides), options);
   const Scene& scene = door.source().scene();
-  const auto points = points_of(arguments, wants_surrogates(arguments, program.tiers(), scene));
+  auto points = points_of(arguments, wants_surrogates(arguments, program.tiers(), scene));
   const SweepPlan plan = plan_sweep(arguments, program.tiers(), scene, *points);
   sweep::Shard shard;
   std::vector<std::string> parts{"sweep"};
@@ -150,18 +157,25 @@ int sweep_command(const SweepArguments& arguments, const Program& program) {
         until, plan.surrogates};
     return sweep::run_sweep(campaign, folder, control);
   };
+  // Up to where intervals would take days to halve, or points no longer enter a surrogate.
+  const std::uint64_t most_points = plan.surrogates ? std::uint64_t{uncertainty::most_points} : 1U << 24;
+  std::uint64_t times = 1;
+  const auto grow = [&] {
+    // Dear points come in batches; others as many again as there are, as intervals halve with four times.
+    times = plan.surrogates ? times + 1 : 2 * times;
+    points = points_of(arguments, plan.surrogates, times);
+  };
+  // What has grown before goes on from there.
+  const std::uint64_t before = until && arguments.resume ? points_before(folder) : 0;
+  while (points->count() < std::min(before, most_points)) grow();
   sweep::SweepSummary summary = compute(*points);
   if ((plan.surrogates || plan.pick_freeze) && shard.is_whole()) {
-    // Up to where intervals would take days to halve, or points no longer enter a surrogate.
-    const std::uint64_t most_points = plan.surrogates ? std::uint64_t{uncertainty::most_points} : 1U << 24;
-    std::uint64_t times = 1;
     double widest = make_indices(summary, folder, arguments.quiet);
     while (until && widest > *until && summary.count < most_points && !summary.interrupted) {
-      // Dear points come in batches; others as many again as there are, as intervals halve with four times.
-      times = plan.surrogates ? times + 1 : 2 * times;
+      grow();
       control.resume = true;
       control.replace = false;
-      summary = compute(*points_of(arguments, plan.surrogates, times));
+      summary = compute(*points);
       widest = make_indices(summary, folder, arguments.quiet);
     }
     if (until && widest > *until)

@@ -6,7 +6,10 @@
 #include <algorithm>
 #include <filesystem>
 
+#include <nlohmann/json.hpp>
+
 #include "core/observables/result.hpp"
+#include "core/scene/scene.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -72,4 +75,24 @@ TEST_F(SweepReport, ASceneThatHasChangedSinceIsTold) {
   EXPECT_TRUE(is_one_line(ended.errors)) << ended.errors;
   EXPECT_NE(ended.errors.find("not the scene any more"), std::string::npos) << ended.errors;
   EXPECT_FALSE(fs::exists(path("all/points")));
+}
+
+TEST_F(SweepReport, APointOfAListHasTheScenesValueWhereItsCellIsEmpty) {
+  write_whole(path("points.csv"), "outlet.resistance,tether.stiffness\n,2e7\n1.1e6,\n");
+  ASSERT_EQ(run({"sweep", "scene.toml", "--quiet", "--tier", "lumped", "--points", "points.csv", "--quantity",
+                 "pressure.max", "--out", "list"})
+                .code,
+            0);
+  const auto ended = run({"report", "list", "--point", "0", "--point", "1"});
+  ASSERT_EQ(ended.code, 0) << ended.errors;
+  // Those of scenes/cylinder.toml beside the lists'.
+  const auto scene_of = [&](const char* point) {
+    const auto record = nlohmann::json::parse(read_text(path("list/points") / point / "record.json"));
+    return parse_scene(record.at("scene_toml").get<std::string>(), point, folder_.path());
+  };
+  const Scene first = scene_of("0"), second = scene_of("1");
+  EXPECT_EQ(first.number("outlet.resistance"), 1.032e6);
+  EXPECT_EQ(first.number("tether.stiffness"), 2e7);
+  EXPECT_EQ(second.number("outlet.resistance"), 1.1e6);
+  EXPECT_EQ(second.number("tether.stiffness"), 1e7);
 }

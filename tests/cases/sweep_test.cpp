@@ -402,6 +402,11 @@ TEST_F(Sweep, IndicesSayWhatGoverns) {
   EXPECT_EQ(csv("until"), csv("at once"));
   EXPECT_EQ(read_text(path("until/indices.csv")), read_text(path("at once/indices.csv")));
 
+  // Nor does it shrink where less would do now.
+  ASSERT_EQ(sweep("until", joined(sample, {"--until", "1.5", "--resume"})).code, 0);
+  EXPECT_EQ(csv("until"), csv("at once"));
+  EXPECT_EQ(read_text(path("until/indices.csv")), read_text(path("at once/indices.csv")));
+
   // Too few groups for an interval are no reason to stop.
   all[5] = "sobol:2";
   ASSERT_EQ(sweep("few", joined(all, {"--until", "1.5"})).code, 0);

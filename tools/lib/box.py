@@ -4,9 +4,11 @@
 import argparse
 import collections
 import csv
+import itertools
 import math
 import pathlib
 import random
+import shutil
 import subprocess
 import sys
 
@@ -36,17 +38,18 @@ def artery(chance):
     resistance = log_uniform(0.5, 2) * RESISTANCE * (RADIUS / radius) ** 2
     windkessel = chance.random() >= 0.7
     compliance = log_uniform(0.05, 1) / resistance
-    values = [law, radius, thickness, length, stiffness, traction, "" if law == "EXP1+EXP2-ZS" else stretch,
+    values = [law, radius, thickness, length, stiffness, traction, stretch if law == "EXP1+EXP2-FS" else "",
               "rcr" if windkessel else "resistance", resistance,
               0.1 * resistance if windkessel else "", compliance if windkessel else ""]
     return [f"{value:.6g}" if isinstance(value, float) else value for value in values]
 
 
 def write_points(path, points):
+    # A few arteries may all leave a key to the scene, which a sweep takes for a slip.
+    given = [any(point[k] for point in points) for k in range(len(HEADER))]
     with open(path, "w", encoding="utf-8", newline="") as file:
         writer = csv.writer(file)
-        writer.writerow(HEADER)
-        writer.writerows(points)
+        writer.writerows(list(itertools.compress(row, given)) for row in (HEADER, *points))
 
 
 def sweep(program, points, folder, options):
@@ -88,6 +91,10 @@ def main():
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("results/box"))
     parser.add_argument("--resume", action="store_true")
     arguments = parser.parse_args()
+    if arguments.count < 1:
+        parser.error(f"--count {arguments.count}: a number of arteries of 1 or more")
+    if not shutil.which(arguments.program):
+        parser.error(f"{arguments.program}: no program; build it, or name another as the first argument")
 
     arguments.out.mkdir(parents=True, exist_ok=True)
     again = "--resume" if arguments.resume else "--replace"
