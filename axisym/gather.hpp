@@ -57,7 +57,7 @@ inline SideNodes side_nodes(const Layout& layout, const SideTable& side, const S
 
 inline kernel::BloodParameters blood_parameters(const Problem& problem, const BloodTable& table,
                                                 const Stage& stage) {
-  kernel::BloodParameters parameters{problem.blood, stage.coefficient, 1.0, 0.0};
+  kernel::BloodParameters parameters{problem.blood, stage.coefficient, 1.0, {}, 0.0};
   if (problem.discretisation.motion == coupled::MeshMotion::stiffened)
     parameters.mesh_stiffness = 1 / (table.size * table.size);
   if (problem.discretisation.element == Element::linear) parameters.stabilised_size = table.size;

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "core/coupled/openings.hpp"
+#include "core/coupled/sectional_motion.hpp"
 
 namespace tunica::axisym {
 
@@ -43,43 +44,6 @@ void mark_nodes(const Problem& problem, coupled::LayoutSpec& spec) {
         if (spec.has_displacement[node]) spec.on_wall[node] = true;
 }
 
-/// How the mesh in the blood follows the wall, section by section. With s the share of the radius and d the
-/// distance from the nearer clamped end in radii, R that of the lumen,
-///
-///   r = s (R + u_r(Z)),  z = Z + s^k u_z(Z) + (1 - s^k) b(Z),  b = +-c u_r(Z) exp(-(d/l)^2),
-///
-/// has J = (R + u_r) (1 + b') + s^k [(R + u_r) (u_z' - b') - k u_r' (u_z - b)], over R: positive where it is
-/// at the surface, s = 1, and on the axis. A thin wall bulges over its clamp, so that 1 + u_z' < 0 there;
-/// what is inside the bulge is then meshed from sections that b has moved into the vessel, and leads
-/// outwards within R/k of the surface. Larger k bears more beside an end, where u_r' (u_z - b) < 0 in an
-/// outlet, and less beyond, where the wall overshoots. Found on 600 random arteries, of which 6 fold with
-/// these and 81 by harmonic motion.
-struct SectionalMotion {
-  static constexpr double power_at_end = 50, power = 6, power_reach = 0.4;
-  static constexpr double lean = 0.55, lean_reach = 1.4;
-  double inlet, outlet;  ///< heights of the ends
-  bool inlet_is_clamped, outlet_is_clamped;
-
-  /// s^k at a height of a vessel of radius R there.
-  double fade(double s, double radius, double z) const {
-    const double near = std::max(closeness(inlet_is_clamped, z - inlet, power_reach * radius),
-                                 closeness(outlet_is_clamped, outlet - z, power_reach * radius));
-    return std::pow(s, power + (power_at_end - power) * near);
-  }
-  /// b over u_r.
-  double lean_at(double radius, double z) const {
-    // A short vessel has less room to move sections into.
-    const double reach = std::min(lean_reach * radius, (outlet - inlet) / 3);
-    return lean * reach / radius *
-           (closeness(inlet_is_clamped, z - inlet, reach) - closeness(outlet_is_clamped, outlet - z, reach));
-  }
-
- private:
-  static double closeness(bool is_clamped, double distance, double reach) {
-    return is_clamped ? std::exp(-std::pow(distance / reach, 2)) : 0.0;
-  }
-};
-
 /// Each section's nodes in the blood by that on its interface.
 void share_sections(const Problem& problem, coupled::LayoutSpec& spec) {
   const Mesh& mesh = problem.mesh;
@@ -89,8 +53,8 @@ void share_sections(const Problem& problem, coupled::LayoutSpec& spec) {
       for (const int node : mesh.side_nodes(edge.cell, edge.side))
         if (spec.has_displacement[node]) interface.emplace(mesh.points[node][1], node);
   const auto is_clamped = [&](Boundary end) { return problem.on(end).displacement[0]; };
-  const SectionalMotion motion{interface.begin()->first, interface.rbegin()->first,
-                               is_clamped(Boundary::inlet), is_clamped(Boundary::outlet)};
+  const coupled::SectionalMotion motion{interface.begin()->first, interface.rbegin()->first,
+                                        is_clamped(Boundary::inlet), is_clamped(Boundary::outlet)};
   for (int node = 0; node < static_cast<int>(mesh.points.size()); ++node) {
     if (!spec.has_displacement[node] || spec.on_wall[node]) continue;
     const auto found = interface.find(mesh.points[node][1]);
@@ -98,7 +62,7 @@ void share_sections(const Problem& problem, coupled::LayoutSpec& spec) {
       throw std::logic_error("share_sections: a node in the blood lies in no section of the mesh");
     const auto [z, of] = *found;
     const double radius = mesh.points[of][0], s = mesh.points[node][0] / radius;
-    const double fade = motion.fade(s, radius, z);
+    const double fade = std::pow(s, motion.power_at(radius, z));
     spec.shares.push_back({node, 0, of, s});
     spec.shares.push_back({node, 1, of, fade, (1 - fade) * motion.lean_at(radius, z)});
   }

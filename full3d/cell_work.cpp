@@ -85,8 +85,11 @@ class Work final : public CellWork {
           static thread_local std::vector<typename Tables<Width, SideWidth>::BloodPoint> points;
           tables_.blood(cell.cell, points);
           const auto nodes = coupled::blood_nodes<Frame, Width>(layout_, cell.fields(), at.stage, y);
-          const auto parameters = blood_parameters(points, at.stage);
-          for (const auto& point : points) kernel::add_blood_residual(parameters, point, nodes, result);
+          auto parameters = blood_parameters(points, at.stage);
+          for (const auto& point : points) {
+            if (problem_.sections) parameters.sections = problem_.sections(point.place);
+            kernel::add_blood_residual(parameters, point, nodes, result);
+          }
         },
         [&](const Nodes& cell, const auto& result) {
           const auto n = coupled::blood_numbers<Frame, Width>(layout_, cell.fields());
@@ -166,8 +169,10 @@ class Work final : public CellWork {
           auto parameters = blood_parameters(points, at.stage);
           parameters.mesh_is_given =
               !coupled::has_displacement(coupled::blood_numbers<Frame, Width>(layout_, cell.fields()));
-          for (const auto& point : points)
+          for (const auto& point : points) {
+            if (problem_.sections) parameters.sections = problem_.sections(point.place);
             kernel::add_blood_tangent(parameters, point, nodes, result.tangent);
+          }
           if (condenses)
             bubbles_[&cell - blood_.data()].take(result.tangent, c,
                                                  [&](double entry) { result.condensed.push_back(entry); });
@@ -388,7 +393,7 @@ class Work final : public CellWork {
 
   template <class Points>
   kernel::BloodParameters blood_parameters(const Points& points, const Stage& stage) const {
-    kernel::BloodParameters parameters{problem_.blood, stage.coefficient, 1.0, 0.0};
+    kernel::BloodParameters parameters{problem_.blood, stage.coefficient, 1.0, {}, 0.0};
     const double size = tables_.size(points);
     if (problem_.discretisation.motion == coupled::MeshMotion::stiffened)
       parameters.mesh_stiffness = 1 / (size * size);

@@ -55,6 +55,7 @@ Layout layout_of(const Problem& problem) {
   coupled::LayoutSpec spec;
   spec.components = 3;
   spec.mesh_follows = problem.discretisation.lagged_mesh;
+  spec.mesh_couples = static_cast<bool>(problem.sections);
   mark_nodes(problem, spec);
   if (mesh.has(Part::blood)) coupled::add_openings(problem, spec);
   const Basis moving = displacement_basis(problem.discretisation.element);

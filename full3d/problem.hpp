@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "core/coupled/conditions.hpp"
+#include "core/physics/mesh_motion.hpp"
 #include "full3d/mesh.hpp"
 
 namespace tunica::full3d {
@@ -23,6 +24,8 @@ using WallDirections =
 struct Problem : coupled::Conditions<3> {
   Mesh mesh;
   WallDirections directions;
+  /// How the mesh in the blood moves within sections, at a point, where it does (MeshMotion::sectional).
+  std::function<physics::MotionInSections(const Point& point)> sections;
 };
 
 }  // namespace tunica::full3d

@@ -9,12 +9,16 @@
 #include <utility>
 
 #include "core/coupled/gmsh_parts.hpp"
+#include "core/coupled/sectional_motion.hpp"
 #include "core/coupled/wall_strain.hpp"
 #include "core/error.hpp"
 #include "core/radial/from_scene.hpp"
 #include "full3d/gmsh.hpp"
 #include "full3d/inlet_profile.hpp"
+#include "full3d/layout.hpp"
 #include "full3d/measures.hpp"
+#include "full3d/refusal.hpp"
+#include "full3d/solver_options.hpp"
 #include "full3d/tables.hpp"
 
 namespace tunica::full3d {
@@ -34,6 +38,36 @@ EndAxes end_axes(const Setup& setup) {
   constexpr double aligned = 1e-2;
   return {normal_axis(mesh, blood ? Boundary::inlet : Boundary::wall_inlet, aligned),
           normal_axis(mesh, blood ? Boundary::outlet : Boundary::wall_outlet, aligned)};
+}
+
+/// Sections move by unknowns here. The exponent k of the shares is the rate of the fall off the wall times
+/// the radius, and what a section widens by, per area, is 2 u_r/R. Where the mesh keeps its place within a
+/// step, to move as a whole is as good; and multigrid does not solve for what falls off within a cell, so
+/// that systems which are too large for factors move as a whole, too.
+void set_motion(const Scene& scene, Setup& setup) {
+  Problem& problem = setup.problem;
+  if (!problem.mesh.has(Part::blood)) return;
+  const int rows = rows_of(problem, layout_of(problem));
+  const bool factorises = method_for(scene.text("solver.method"), rows) == "direct";
+  problem.discretisation.motion = coupled::mesh_motion_of(scene, has_sections(scene) && factorises);
+  if (problem.discretisation.motion != coupled::MeshMotion::sectional) return;
+  if (!factorises)
+    throw InvalidInput(
+        fmt::format("mesh.motion = \"sectional\" takes factors, and with {} unknowns solver.method = "
+                    "\"auto\" iterates; write \"direct\", or mesh.motion = \"harmonic\"",
+                    rows));
+  const VesselShape shape = setup.shape;
+  const auto is_clamped = [&](Boundary end) {
+    const auto& held = problem.on(end).displacement;
+    return held[0] && held[1] && held[2];
+  };
+  const coupled::SectionalMotion motion{0, shape.length, is_clamped(Boundary::inlet),
+                                        is_clamped(Boundary::outlet)};
+  problem.sections = [shape, motion](const Point& point) {
+    const double s = shape.local(point).s, power = motion.power_at(shape.radius, s);
+    return physics::MotionInSections{shape.axes(0, s).axial, std::pow(power / shape.radius, 2),
+                                     0.5 * shape.radius * motion.lean_at(shape.radius, s)};
+  };
 }
 
 void set_ends(const Scene& scene, Setup& setup) {
@@ -207,12 +241,12 @@ std::unique_ptr<Setup> setup_of(const Scene& scene, const Resolution& resolution
   }
   const bool with_blood = problem.mesh.has(Part::blood);
   coupled::set_conditions(scene, *setup, problem);
-  problem.discretisation.motion = coupled::mesh_motion_of(scene, false);
   coupled::check_layers(problem.mesh.layers(), problem.laws.size());
   if (setup->axes) check_fibers(problem);
   problem.copies = setup->sector == Sector::quarter ? 4 : setup->sector == Sector::half ? 2 : 1;
   setup->wall_density = problem.wall_density;
   set_ends(scene, *setup);
+  set_motion(scene, *setup);
   setup->lumen_radius = setup->shape.radius;
   setup->ring = std::move(rings[0]);
   if (with_blood) {

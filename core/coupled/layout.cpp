@@ -8,6 +8,7 @@ namespace tunica::coupled {
 Layout::Layout(const LayoutSpec& spec)
     : components_(spec.components),
       mesh_follows_(spec.mesh_follows),
+      mesh_couples_(spec.mesh_couples),
       pressure_index_(spec.on_wall.size(), -1),
       on_wall_(spec.on_wall),
       has_displacement_(spec.has_displacement),

@@ -16,6 +16,7 @@ struct LayoutSpec {
   std::vector<bool> has_pressure;
   bool inlet_pressure = false, outlet_pressure = false, windkessel_pressure = false;
   bool mesh_follows = false;  ///< the displacement off the wall is no unknown
+  bool mesh_couples = false;  ///< the equations of its components have each other's displacements
   /// A displacement in the blood that follows from that of a node on the wall: `share` times it in the same
   /// component, and `lean` times it in the first. All components of the node follow the same one on the wall.
   struct Share {
@@ -70,6 +71,8 @@ class Layout {
 
   /// The displacement off the wall is none of the unknowns, but found from that of the wall.
   bool mesh_follows() const { return mesh_follows_; }
+  /// The equations of its components have each other's displacements.
+  bool mesh_couples() const { return mesh_couples_; }
   /// Its entries of y that are not prescribed, and the number of an entry among them, or -1.
   const std::vector<std::size_t>& followers() const { return followers_; }
   int follower(std::size_t entry) const { return follower_.empty() ? -1 : follower_[entry]; }
@@ -111,7 +114,7 @@ class Layout {
   void number(const LayoutSpec& spec);
 
   int components_;
-  bool mesh_follows_;
+  bool mesh_follows_, mesh_couples_;
   std::size_t velocity_ = 0, pressure_ = 0, scalar_ = 0, size_ = 0;
   std::vector<int> pressure_index_, unknown_;
   std::vector<std::size_t> entries_, followers_;

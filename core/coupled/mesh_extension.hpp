@@ -29,7 +29,7 @@ class MeshExtension {
   void add(std::span<const int> nodes, double stiffness,
            std::span<const kernel::BloodPoint<Frame, Width>> points) {
     kernel::Block<Width> blocks[Frame::components][Frame::components];
-    for (const auto& point : points) kernel::add_mesh_tangent(stiffness, point, blocks);
+    for (const auto& point : points) kernel::add_mesh_tangent(stiffness, {}, point, blocks);
     for (int c = 0; c < Frame::components; ++c)
       for (std::size_t k = 0; k < nodes.size(); ++k) {
         const int row = layout_.follower(layout_.displacement(nodes[k], c));

@@ -19,6 +19,7 @@ struct Numbers {
   std::array<std::array<double, Width>, n> share, lean;  ///< of displacements (Layout::column)
   std::array<int, Width> continuity, pressure;
   std::array<bool, Width> adheres;  ///< the velocity is the rate of the displacement
+  bool mesh_couples = false;        ///< Layout::mesh_couples
 
   Numbers() {
     for (auto* list : {&momentum, &mesh, &velocity, &displacement})
@@ -60,6 +61,7 @@ template <class Frame, int Width>
 Numbers<Frame, Width> blood_numbers(const Layout& layout, const BloodCellNodes& cell) {
   Numbers<Frame, Width> numbers;
   detail::number_displacement(layout, cell.displacement, numbers);
+  numbers.mesh_couples = layout.mesh_couples();
   for (std::size_t k = 0; k < cell.velocity.size(); ++k) {
     const int node = cell.velocity[k];
     numbers.adheres[k] = layout.on_wall(node);
@@ -144,8 +146,8 @@ void visit_blocks(const Numbers<Frame, Width>& n, const kernel::BloodTangent<Fra
     for (int b = 0; b < Frame::components; ++b) {
       visit(n.momentum[a], n.velocity[b], true, t.momentum_velocity[a][b]);
       visit(n.momentum[a], n.displacement[b], false, t.momentum_displacement[a][b]);
+      if (a == b || n.mesh_couples) visit(n.mesh[a], n.displacement[b], false, t.mesh_displacement[a][b]);
     }
-    visit(n.mesh[a], n.displacement[a], false, t.mesh_displacement[a][a]);
     visit(n.momentum[a], n.pressure, false, t.momentum_pressure[a][0]);
     visit(n.continuity, n.velocity[a], true, t.continuity_velocity[0][a]);
     visit(n.continuity, n.displacement[a], false, t.continuity_displacement[0][a]);

@@ -30,6 +30,7 @@ struct BloodParameters {
   physics::Blood blood;
   double rate_coefficient = 0;  ///< d(rate)/d(unknown) of the time scheme, 1/s
   double mesh_stiffness = 1;
+  physics::MotionInSections sections;  ///< at the quadrature point
   /// Equal linear bases: size of the cell, cm, for the pressure stabilisation; 0 leaves it out.
   double stabilised_size = 0;
   /// Where the mesh is is given: nothing is differentiated by it.
@@ -104,9 +105,10 @@ void add_blood_residual(const BloodParameters& parameters, const BloodPoint<Fram
   const auto balance = physics::blood_balance(parameters.blood, state);
   residual.least_jacobian = std::min(residual.least_jacobian, 1 + volume_change(state.mesh_gradient));
   test_vector(at.weight, balance.force, balance.stress, at.velocity, residual.momentum);
-  test_vector(at.weight, Vector<double>{},
-              physics::mesh_motion_flux(parameters.mesh_stiffness, state.mesh_gradient), at.displacement,
-              residual.mesh);
+  const auto mesh =
+      physics::mesh_motion(parameters.mesh_stiffness, parameters.sections,
+                           field_value(at.displacement, nodes.displacement), state.mesh_gradient);
+  test_vector(at.weight, mesh.force, mesh.stress, at.displacement, residual.mesh);
   for (int k = 0; k < Width; ++k)
     residual.continuity[k] += at.weight * balance.volume_rate * at.pressure.lift[0][k];
   if (parameters.stabilised_size <= 0) return;
@@ -117,13 +119,26 @@ void add_blood_residual(const BloodParameters& parameters, const BloodPoint<Fram
       residual.continuity[k] += at.weight * flux[Frame::axes[a]] * at.pressure.lift[1 + a][k];
 }
 
-/// Adds the derivative of the mesh's motion by the displacement.
+/// Adds the derivative of the mesh's motion by the displacement, in which it is linear.
 template <class Frame, int Width>
-void add_mesh_tangent(double stiffness, const BloodPoint<Frame, Width>& at,
+void add_mesh_tangent(double stiffness, const physics::MotionInSections& sections,
+                      const BloodPoint<Frame, Width>& at,
                       Block<Width> (&blocks)[Frame::components][Frame::components]) {
+  constexpr int n = Frame::components, terms = n + gradient_size<Frame>;
   constexpr auto vectors = vector_slots<Frame>();
-  const auto mesh = [&](int out, int in) { return out == in && out >= Frame::components ? stiffness : 0.0; };
-  contract(at.weight, vectors, vectors, mesh, at.displacement, at.displacement, blocks);
+  double derivative[terms][terms];
+  for (int in = 0; in < terms; ++in) {
+    Vector<double> displacement{};
+    Tensor<double> gradient{};
+    (in < n ? displacement[Frame::axes[in]] : gradient.entries[Frame::gradient[in - n].entry]) = 1;
+    const auto mesh = physics::mesh_motion(stiffness, sections, displacement, gradient);
+    for (int out = 0; out < terms; ++out)
+      derivative[out][in] =
+          out < n ? mesh.force[Frame::axes[out]] : mesh.stress.entries[Frame::gradient[out - n].entry];
+  }
+  contract(
+      at.weight, vectors, vectors, [&](int out, int in) { return derivative[out][in]; }, at.displacement,
+      at.displacement, blocks);
 }
 
 namespace detail {
@@ -166,7 +181,7 @@ void add_blood_tangent(const BloodParameters& parameters, const BloodPoint<Frame
   if constexpr (moves) {
     contract(at.weight, vectors, vectors, momentum(displacement), at.velocity, at.displacement,
              tangent.momentum_displacement);
-    add_mesh_tangent(parameters.mesh_stiffness, at, tangent.mesh_displacement);
+    add_mesh_tangent(parameters.mesh_stiffness, parameters.sections, at, tangent.mesh_displacement);
   }
   contract(at.weight, vectors, value, momentum(pressure), at.velocity, at.pressure,
            tangent.momentum_pressure);
@@ -258,8 +273,9 @@ void add_blood_change(const BloodParameters& parameters, const BloodPoint<Frame,
       moved.entries[e] = state.mesh_gradient.entries[e].derivative[k];
     }
     test_vector(at.weight, force, stress, at.velocity, change[k].momentum);
-    test_vector(at.weight, Vector<double>{}, physics::mesh_motion_flux(parameters.mesh_stiffness, moved),
-                at.displacement, change[k].mesh);
+    const auto mesh = physics::mesh_motion(parameters.mesh_stiffness, parameters.sections,
+                                           field_value(at.displacement, along[k].displacement), moved);
+    test_vector(at.weight, mesh.force, mesh.stress, at.displacement, change[k].mesh);
     for (int l = 0; l < Width; ++l) {
       double rate = balance.volume_rate.derivative[k] * at.pressure.lift[0][l];
       if (stabilised)

@@ -310,11 +310,12 @@ std::vector<Parameter> declare() {
        Kind::choice,
        "",
        {},
-       "sectional for own quadrilaterals in 2D, else harmonic",
+       "sectional for own quadrilaterals in 2D, own vessels in 3D that are factorised; else harmonic",
        {},
        {"harmonic", "sectional", "stiffened"},
        "How the mesh in the blood follows the wall: harmonic, section by section, each point keeping "
-       "its share of the way to the wall, which bears larger motion (2D tier, quadrilaterals), "
+       "its share of the way to the wall, which bears larger motion (own quadrilaterals in 2D, own "
+       "vessels in 3D), "
        "or harmonic with small cells made stiffer."});
 
   all.push_back(

@@ -132,6 +132,16 @@ TEST_P(SolidTangent, OfAStiffenedMesh) {
   expect_exact();
 }
 
+// Displacements along the vessel and across it act on each other's equations, at a bend on all.
+TEST_P(SolidTangent, OfSectionsThatLean) {
+  problem.discretisation.motion = coupled::MeshMotion::sectional;
+  problem.sections = [](const Point& point) {
+    const double angle = 0.3 * point[2];
+    return physics::MotionInSections{{-std::sin(angle), 0, std::cos(angle)}, 9, 0.4 * std::cos(point[2])};
+  };
+  expect_exact();
+}
+
 // With the motion of the mesh none of the unknowns: the wall alone moves the blood's cells.
 TEST_P(SolidTangent, OnAMeshThatIsGiven) {
   problem.discretisation.lagged_mesh = true;
