@@ -62,10 +62,14 @@ Finished run_with(std::vector<std::string> settings, int ranks, const Cells& cel
 
 /// Two steps from rest.
 Finished steps_by(const std::string& method, int ranks, const Cells& cells = coarsest, double step = 1e-2,
-                  const std::string& options = "", const std::string& geometry = "implicit") {
-  std::vector<std::string> settings{"time.beats=1", "inlet.period=" + std::to_string(2 * step),
-                                    "time.step=" + std::to_string(step), "solver.method=\"" + method + "\"",
-                                    "solver.geometry=" + geometry};
+                  const std::string& options = "", const std::string& geometry = "implicit",
+                  const std::string& motion = "harmonic") {
+  std::vector<std::string> settings{"time.beats=1",
+                                    "inlet.period=" + std::to_string(2 * step),
+                                    "time.step=" + std::to_string(step),
+                                    "solver.method=\"" + method + "\"",
+                                    "solver.geometry=" + geometry,
+                                    "mesh.motion=" + motion};
   if (!options.empty()) settings.push_back("solver.options=\"" + options + "\"");
   return run_with(settings, ranks, cells);
 }
@@ -105,6 +109,13 @@ TEST_P(EveryGeometry, TwoProcessesFindTheSameByEveryMethod) {
     EXPECT_EQ(says("krylov_iterations"), std::string(method) != "direct");
     expect_same(direct, two);
   }
+}
+
+TEST(full3d, TwoProcessesFindTheSameInSectionsThatMoveByThemselves) {
+  const auto steps = [](int ranks) {
+    return steps_by("direct", ranks, coarsest, 1e-2, "", "implicit", "sectional");
+  };
+  expect_same(steps(1), steps(2));
 }
 
 // Without blood there is no pressure, and nothing for its complement to do.

@@ -39,6 +39,7 @@ wall_cells = 2
 blood_cells = 1
 axial_cells = 4
 around_cells = 8
+motion = "harmonic"
 )";
 
 std::unique_ptr<Setup> setup_with(const std::string& geometry) {
