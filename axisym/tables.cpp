@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <utility>
 
 #include "core/coupled/wall_strain.hpp"
@@ -127,13 +128,21 @@ element::CellRule wall_rule(const Problem& problem, int index) {
   return rule;
 }
 
-/// By cell: it has a side whose displacement is prescribed.
+/// By cell: it has a side whose displacement is prescribed, or touches such a cell: on fine meshes the strain
+/// at the corner of a held side reaches beyond the first cell.
 std::vector<bool> held_cells(const Problem& problem) {
-  std::vector<bool> held(problem.mesh.cells.size());
-  for (const Edge& edge : problem.mesh.edges) {
+  const Mesh& mesh = problem.mesh;
+  std::vector<bool> touched(mesh.points.size()), held(mesh.cells.size());
+  const auto corners = [&](std::size_t cell) {
+    return std::span(mesh.cells[cell].nodes).first(static_cast<std::size_t>(mesh.corners()));
+  };
+  for (const Edge& edge : mesh.edges) {
     const auto& prescribed = problem.on(edge.boundary).displacement;
-    if (prescribed[0] && prescribed[1]) held[edge.cell] = true;
+    if (!prescribed[0] || !prescribed[1]) continue;
+    for (const int node : corners(static_cast<std::size_t>(edge.cell))) touched[node] = true;
   }
+  for (std::size_t cell = 0; cell < held.size(); ++cell)
+    held[cell] = std::ranges::any_of(corners(cell), [&](int node) { return touched[node]; });
   return held;
 }
 

@@ -103,7 +103,7 @@ std::string Assembler::compression(const LeastJacobian& least) const {
       least.value > 0 ? fmt::format("compressed to J = {:.2g}", least.value) : "turned inside out", x[0],
       x[1], x[2], least.cell, mesh.cells.size());
   if (!blood || problem_.discretisation.motion != coupled::MeshMotion::harmonic) return text;
-  return text + "; mesh.motion = \"stiffened\" may bear more";
+  return text + "; geometry.ends = \"sliding\" or, in a cylinder, mesh.motion = \"sectional\" may bear more";
 }
 
 /// That the linear solver cannot go on for lack of memory, or by what the user's options make of it, is told

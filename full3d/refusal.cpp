@@ -5,17 +5,14 @@
 
 namespace tunica::full3d {
 
-bool has_sections(const Scene& scene) {
-  return scene.text("geometry.kind") != "mesh" && scene.text("solver.geometry") == "implicit";
-}
-
 std::string refusal(const Scene& scene) {
   const std::string& method = scene.text("solver.method");
-  const bool iterates = method == "block" || method == "schwarz";
-  if (scene.has("mesh.motion") && scene.text("mesh.motion") == "sectional" &&
-      (!has_sections(scene) || iterates))
-    return "mesh.motion = \"sectional\" needs the sections of an own cylinder or torus, solver.geometry = "
-           "\"implicit\" and solver.method = \"direct\"; use \"harmonic\" or \"stiffened\"";
+  const bool moves_by_sections = scene.text("geometry.kind") == "cylinder" &&
+                                 scene.text("solver.geometry") == "implicit" && method != "block" &&
+                                 method != "schwarz";
+  if (scene.has("mesh.motion") && scene.text("mesh.motion") == "sectional" && !moves_by_sections)
+    return "mesh.motion = \"sectional\" is in 3D for cylinders with solver.geometry = \"implicit\" and "
+           "solver.method = \"direct\"; use \"harmonic\" or \"stiffened\"";
   if (scene.text("geometry.kind") == "mesh") {
     const int dimensions = element::gmsh_dimensions(scene.folder() / scene.text("geometry.file"));
     if (dimensions == 1 || dimensions == 2)

@@ -11,9 +11,6 @@ namespace tunica::full3d {
 
 inline constexpr const char* tier_name = "full3d";
 
-/// The mesh is Tunica's own, has sections across the vessel, and moves as part of the step.
-bool has_sections(const Scene& scene);
-
 /// As Tier::refusal and Tier::suits.
 std::string refusal(const Scene& scene);
 bool suits(const Scene& scene);

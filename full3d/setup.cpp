@@ -41,17 +41,15 @@ EndAxes end_axes(const Setup& setup) {
 }
 
 /// Sections move by unknowns here. The exponent k of the shares is the rate of the fall off the wall times
-/// the radius, and what a section widens by, per area, is 2 u_r/R. Where the mesh keeps its place within a
-/// step, to move as a whole is as good; and multigrid does not solve for what falls off within a cell, so
-/// that systems which are too large for factors move as a whole, too.
+/// the radius, and what a section widens by, per area, is 2 u_r/R. Multigrid does not solve for what falls
+/// off within a cell.
 void set_motion(const Scene& scene, Setup& setup) {
   Problem& problem = setup.problem;
   if (!problem.mesh.has(Part::blood)) return;
-  const int rows = rows_of(problem, layout_of(problem));
-  const bool factorises = method_for(scene.text("solver.method"), rows) == "direct";
-  problem.discretisation.motion = coupled::mesh_motion_of(scene, has_sections(scene) && factorises);
+  problem.discretisation.motion = coupled::mesh_motion_of(scene, false);
   if (problem.discretisation.motion != coupled::MeshMotion::sectional) return;
-  if (!factorises)
+  const int rows = rows_of(problem, layout_of(problem));
+  if (method_for(scene.text("solver.method"), rows) != "direct")
     throw InvalidInput(
         fmt::format("mesh.motion = \"sectional\" takes factors, and with {} unknowns solver.method = "
                     "\"auto\" iterates; write \"direct\", or mesh.motion = \"harmonic\"",
