@@ -128,21 +128,38 @@ element::CellRule wall_rule(const Problem& problem, int index) {
   return rule;
 }
 
-/// By cell: it has a side whose displacement is prescribed, or touches such a cell: on fine meshes the strain
-/// at the corner of a held side reaches beyond the first cell.
+/// By cell: it has a side whose displacement is prescribed, or touches such a cell of the wall at an end of
+/// that surface. On fine meshes the strain at a corner between a held and a free surface reaches beyond one
+/// cell.
 std::vector<bool> held_cells(const Problem& problem) {
   const Mesh& mesh = problem.mesh;
-  std::vector<bool> touched(mesh.points.size()), held(mesh.cells.size());
-  const auto corners = [&](std::size_t cell) {
-    return std::span(mesh.cells[cell].nodes).first(static_cast<std::size_t>(mesh.corners()));
+  std::vector<bool> held(mesh.cells.size());
+  std::vector<int> sides_at(mesh.points.size());  // of the wall, that are held
+  const auto has_end = [&](const Edge& edge) {
+    const auto nodes = mesh.side_nodes(edge.cell, edge.side);
+    return sides_at[nodes[0]] == 1 || sides_at[nodes[1]] == 1;
   };
+  std::vector<Edge> of_wall;
   for (const Edge& edge : mesh.edges) {
     const auto& prescribed = problem.on(edge.boundary).displacement;
     if (!prescribed[0] || !prescribed[1]) continue;
-    for (const int node : corners(static_cast<std::size_t>(edge.cell))) touched[node] = true;
+    held[edge.cell] = true;
+    if (mesh.cells[edge.cell].part != Part::wall) continue;
+    const auto nodes = mesh.side_nodes(edge.cell, edge.side);
+    for (int k = 0; k < 2; ++k) ++sides_at[nodes[k]];
+    of_wall.push_back(edge);
   }
+  const auto corners = [&](std::size_t cell) {
+    return std::span(mesh.cells[cell].nodes).first(static_cast<std::size_t>(mesh.corners()));
+  };
+  // Of triangles so many touch a corner that nearly incompressible tissue would lock.
+  if (mesh.shape != CellShape::quadrilateral) return held;
+  std::vector<bool> touched(mesh.points.size());
+  for (const Edge& edge : of_wall)
+    if (has_end(edge))
+      for (const int node : corners(static_cast<std::size_t>(edge.cell))) touched[node] = true;
   for (std::size_t cell = 0; cell < held.size(); ++cell)
-    held[cell] = std::ranges::any_of(corners(cell), [&](int node) { return touched[node]; });
+    held[cell] = held[cell] || std::ranges::any_of(corners(cell), [&](int node) { return touched[node]; });
   return held;
 }
 

@@ -313,10 +313,9 @@ std::vector<Parameter> declare() {
        "sectional for own quadrilaterals in 2D, own vessels in 3D that are factorised; else harmonic",
        {},
        {"harmonic", "sectional", "stiffened"},
-       "How the mesh in the blood follows the wall: harmonic, section by section, each point keeping "
-       "its share of the way to the wall, which bears larger motion (own quadrilaterals in 2D, own "
-       "vessels in 3D), "
-       "or harmonic with small cells made stiffer."});
+       "How the mesh in the blood follows the wall: harmonic, section by section, each point keeping its "
+       "share of the way to the wall, which bears larger motion (own quadrilaterals in 2D, a cylinder in "
+       "3D), or harmonic with small cells made stiffer."});
 
   all.push_back(
       choice("solver.method", "auto", {"auto", "direct", "schwarz", "block"},
