@@ -121,8 +121,10 @@ std::unique_ptr<Setup> conditions_of(const Scene& scene, const Resolution& resol
   require_balance(problem.laws);
   setup->wall_density = problem.wall_density;
   set_ends(scene, problem);
+  // A single cell across the blood does not show how the motion of sections falls off the wall.
+  const bool resolves_sections = has_sections(scene) && setup->resolution.blood_cells > 1;
   problem.discretisation.motion =
-      coupled::mesh_motion_of(scene, problem.mesh.has(Part::blood) && has_sections(scene));
+      coupled::mesh_motion_of(scene, problem.mesh.has(Part::blood) && resolves_sections);
 
   const Extent ends = extent(problem.mesh);
   setup->lumen_radius = section_at(problem.mesh, 0.5 * (ends.inlet + ends.outlet)).inner;

@@ -152,8 +152,11 @@ std::vector<bool> held_cells(const Problem& problem) {
   const auto corners = [&](std::size_t cell) {
     return std::span(mesh.cells[cell].nodes).first(static_cast<std::size_t>(mesh.corners()));
   };
-  // Of triangles so many touch a corner that nearly incompressible tissue would lock.
-  if (mesh.shape != CellShape::quadrilateral) return held;
+  // Of triangles, and of a wall with few cells across, so many touch a corner that nearly incompressible tissue
+  // would lock.
+  constexpr std::size_t fewest_across = 5;
+  const auto ends = static_cast<std::size_t>(std::ranges::count(sides_at, 1));
+  if (mesh.shape != CellShape::quadrilateral || 2 * of_wall.size() < fewest_across * ends) return held;
   std::vector<bool> touched(mesh.points.size());
   for (const Edge& edge : of_wall)
     if (has_end(edge))

@@ -310,7 +310,7 @@ std::vector<Parameter> declare() {
        Kind::choice,
        "",
        {},
-       "sectional for own quadrilaterals in 2D, own vessels in 3D that are factorised; else harmonic",
+       "sectional for own quadrilaterals in 2D, two or more across the blood; else harmonic",
        {},
        {"harmonic", "sectional", "stiffened"},
        "How the mesh in the blood follows the wall: harmonic, section by section, each point keeping its "
