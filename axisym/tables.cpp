@@ -152,8 +152,8 @@ std::vector<bool> held_cells(const Problem& problem) {
   const auto corners = [&](std::size_t cell) {
     return std::span(mesh.cells[cell].nodes).first(static_cast<std::size_t>(mesh.corners()));
   };
-  // Of triangles, and of a wall with few cells across, so many touch a corner that nearly incompressible tissue
-  // would lock.
+  // Of triangles, and of a wall with few cells across, so many touch a corner that nearly incompressible
+  // tissue would lock.
   constexpr std::size_t fewest_across = 5;
   const auto ends = static_cast<std::size_t>(std::ranges::count(sides_at, 1));
   if (mesh.shape != CellShape::quadrilateral || 2 * of_wall.size() < fewest_across * ends) return held;

@@ -83,8 +83,8 @@ TEST(EvenInlet, IsAlikeInBothTiersAndConverges) {
   }
 }
 
-// Under a uniform static pressure any profile is as good as another, and on this mesh this one is found: a ring of
-// fast blood around a core that leaves. The run says so.
+// Under a uniform static pressure any profile is as good as another, and on this mesh this one is found: a
+// ring of fast blood around a core that leaves. The run says so.
 TEST(EvenInlet, ATurnOfTheBloodIsTold) {
   const Result result = run_axisym(jet({"inlet.pressure_kind=static", "mesh.motion=harmonic"}));
   ASSERT_LT(least(result), 0);
