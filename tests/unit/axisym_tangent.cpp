@@ -29,13 +29,7 @@ std::ostream& operator<<(std::ostream& out, const ElementCase& c) {
 class CoupledTangent : public testing::TestWithParam<ElementCase> {
  protected:
   CoupledTangent() {
-    TubeSpec spec;
-    spec.radius = 1;
-    spec.layers = {0.5};
-    spec.length = 2;
-    spec.blood_cells = spec.wall_cells = spec.axial_cells = 2;
-    spec.shape = GetParam().shape;
-    problem.mesh = structured_tube(spec);
+    problem.mesh = tube();
     // A smooth map to cells without right angles.
     for (auto& [r, z] : problem.mesh.points) {
       const double moved = r * (1 + 0.1 * std::sin(2 * z));
@@ -43,6 +37,16 @@ class CoupledTangent : public testing::TestWithParam<ElementCase> {
       r = moved;
     }
     tangent::set_conditions(GetParam().element, problem);
+  }
+
+  static Mesh tube() {
+    TubeSpec spec;
+    spec.radius = 1;
+    spec.layers = {0.5};
+    spec.length = 2;
+    spec.blood_cells = spec.wall_cells = spec.axial_cells = 2;
+    spec.shape = GetParam().shape;
+    return structured_tube(spec);
   }
 
   /// A state with strains up to some 0.4, in which blood flows in through the outlet at up to twice the
@@ -113,13 +117,7 @@ TEST_P(CoupledTangent, OfAStiffenedMesh) {
 
 // The wall's displacement moves every point of its section, at once and within the columns of the derivative.
 TEST_P(CoupledTangent, OfASectionalMesh) {
-  TubeSpec spec;
-  spec.radius = 1;
-  spec.layers = {0.5};
-  spec.length = 2;
-  spec.blood_cells = spec.wall_cells = spec.axial_cells = 2;
-  spec.shape = GetParam().shape;
-  problem.mesh = structured_tube(spec);
+  problem.mesh = tube();
   problem.discretisation.motion = coupled::MeshMotion::sectional;
   // Centres of quadratic triangles lie in no section.
   if (GetParam().shape == CellShape::triangle && GetParam().element == Element::quadratic) {

@@ -17,6 +17,8 @@ OBSERVABLES = ["pressure", "inflow", "outflow", "outlet_pressure", "transmural_p
     for name in ("radial_displacement", "fiber_angle", "fiber_stretch", "recruitment", "von_mises")
     for point in (1, 2, 3, 4)
 ]
+GRADIENT_KEYS = ("outlet.resistance", "tether.stiffness", "wall.activation_stretch", "geometry.thickness",
+                 "wall.fiber_stiffness")
 EXTREMES = [f"{name}.{end}" for name in OBSERVABLES for end in ("max", "min")]
 
 
@@ -89,6 +91,29 @@ def against(program, whole_runs, folder):
           f"of the Sobol' sample {1e3 * of_sample:.3f} ms, {whole / of_sample:.1f} times less")
 
 
+def run_2d(program, folder, *settings):
+    """Processor seconds of a run of the paper's artery in 2D."""
+    command = [program, "run", SCENE, "--tier", "axisym", "--quiet", "--replace", "--out",
+               str(pathlib.Path(folder, "run")), "--set", "output.field_interval=0"]
+    for setting in settings:
+        command += ["--set", setting]
+    process = subprocess.Popen(command)
+    _, status, usage = os.wait4(process.pid, 0)
+    if status != 0:
+        sys.exit(f"{' '.join(command)} failed")
+    return usage.ru_utime + usage.ru_stime
+
+
+def plain_runs_2d(program, folder):
+    """What derivatives by five keys, and the motion of the mesh, cost in 2D, side by side."""
+    keys = ", ".join(f'"{key}"' for key in GRADIENT_KEYS)
+    kinds = {"plain": [], "five keys": [f"sensitivity.parameters=[{keys}]"], "harmonic": ["mesh.motion=harmonic"]}
+    rounds = [{kind: run_2d(program, folder, *settings) for kind, settings in kinds.items()} for _ in range(5)]
+    median = {kind: statistics.median(times[kind] for times in rounds) for kind in kinds}
+    print(f"2D, a run: {median['plain']:.2f} s of a processor, with harmonic motion {median['harmonic']:.2f} s; "
+          f"derivatives by five keys cost {median['five keys'] / median['plain'] - 1:.1f} runs more", flush=True)
+
+
 def main():
     program = sys.argv[1]
     at_bar = ["--tier", "lumped", "--set", "accuracy.tolerance=1e-3"]
@@ -104,6 +129,7 @@ def main():
             wall, processor, memory = sweep(program, folder, *arguments)
             print(f"{name}: {points} points in {wall:.2f} s ({processor:.2f} s of processors), "
                   f"{points / wall:.0f} a second, {memory:.0f} MiB", flush=True)
+        plain_runs_2d(program, folder)
         if len(sys.argv) > 2:
             against(program, sys.argv[2], folder)
         error, where = largest_error(program, folder)
